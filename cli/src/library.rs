@@ -432,7 +432,8 @@ pub fn write(calibrated: &Calibrated, folder: &Path, all_residuals: bool) -> Res
     calibrating::refuse_to_replace(calibrated.studied(), folder)?;
     let name = folder.display().to_string();
     let reported = calibrated.reported(Some(&name));
-    report_files::write_all(&reported, &report::rows_written(&reported, all_residuals), folder)
+    let instrument = calibrated.instrument(None);
+    report_files::write_all(&reported, &report::rows_written(&reported, all_residuals), instrument, folder)
 }
 
 /// A text without the colours of a terminal.

@@ -7,25 +7,28 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use model_core::Chain;
+use service::Instrument;
 use service::errors_file::{self, FoundOver};
 use service::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use service::readings::{ReadingsTable, Rows};
-use tables::formats::Column;
+use service::source::observables;
+use tables::formats::{Column, Kept, Options};
 
 use crate::failure::Failure;
-use crate::{output, source, table_files, terminal};
+use crate::source::{self, Declared};
+use crate::{output, table_files, terminal};
 
 /// What is evaluated over which table, and where to.
 #[derive(Debug, clap::Args)]
 pub struct OverTable {
-    /// The declaration, amended or not
+    /// An instrument file, or a declaration, amended or not
     chain: PathBuf,
     /// Readings of joints and inputs: a .csv or .parquet file, or - for standard input
     #[arg(long, value_name = "IN")]
     pub data: PathBuf,
-    /// Values of the errors, as `calibrate` writes them too
+    /// Values of the errors of a declaration, as `calibrate` writes them too; an instrument file has its own
     #[arg(long, value_name = "E.toml")]
-    errors: PathBuf,
+    errors: Option<PathBuf>,
     /// Only this observable (may be given several times); default: every one that the data has the readings for
     #[arg(long)]
     pub observable: Vec<String>,
@@ -52,6 +55,8 @@ pub struct Model {
     pub values: Vec<f64>,
     /// The ranges that the errors were found over, if the file says so.
     pub found: Vec<FoundOver>,
+    /// The instrument, if its file was given.
+    pub instrument: Option<Instrument>,
 }
 
 /// What was read before any row.
@@ -62,6 +67,8 @@ pub struct Opened {
     pub values: Vec<f64>,
     /// The ranges that the errors were found over, if the file says so.
     pub found: Vec<FoundOver>,
+    /// The instrument, if its file was given.
+    pub instrument: Option<Instrument>,
     /// The readings.
     pub table: ReadingsTable<'static>,
 }
@@ -73,9 +80,19 @@ impl OverTable {
     /// One of them has a mistake, or the output would replace one.
     pub fn open(&self) -> Result<Opened, Failure> {
         output::refuse_to_replace(&self.out, [self.data.as_path()])?;
-        let Model { chain, values, found } = self.model()?;
-        let table = table_files::open_kept(&self.data, &chain, self.comment)?;
-        Ok(Opened { chain, values, found, table })
+        let Model { chain, values, found, instrument } = self.model()?;
+        let headings = instrument.as_ref().and_then(|instrument| instrument.headings.as_ref());
+        let options = headings.map_or_else(Options::default, |headings| headings.format);
+        let options = Options { comment: self.comment.or(options.comment), ..options };
+        let mut table = table_files::open_kept(&self.data, &chain, options)?;
+        if let Some(headings) = headings {
+            let named = match self.observable.as_slice() {
+                [] => Vec::new(),
+                names => observables(&chain, names)?,
+            };
+            table = table.headed_by(headings, &named);
+        }
+        Ok(Opened { chain, values, found, instrument, table })
     }
 
     /// Reads the declaration and the errors. Data may be replaced: the points of a cloud are corrected in their own place.
@@ -83,12 +100,32 @@ impl OverTable {
     /// # Errors
     /// One of them has a mistake, or the output would replace one.
     pub fn model(&self) -> Result<Model, Failure> {
-        output::refuse_to_replace(&self.out, [self.chain.as_path(), &self.errors])?;
-        let chain = source::chain(&self.chain)?;
-        let errors = source::read(&self.errors)?;
-        let values = errors_file::values(&errors, &chain, &terminal::warn)?;
-        let found = errors_file::found_over(&errors, &chain)?;
-        Ok(Model { chain, values, found })
+        output::refuse_to_replace(
+            &self.out,
+            [&self.chain].into_iter().chain(&self.errors).map(PathBuf::as_path),
+        )?;
+        let Declared { chain, instrument, .. } = Declared::read(&self.chain)?;
+        let (values, found) = match (&self.errors, &instrument) {
+            (None, Some(instrument)) => (instrument.values.clone(), instrument.found.clone()),
+            (Some(path), None) => {
+                let errors = source::read(path)?;
+                let values = errors_file::values(&errors, &chain, &terminal::warn)?;
+                (values, errors_file::found_over(&errors, &chain)?)
+            }
+            (Some(_), Some(_)) => {
+                return Err(Failure::Input(format!(
+                    "`{}` is an instrument file, which has its errors: leave --errors out, or give a declaration",
+                    self.chain.display()
+                )));
+            }
+            (None, None) => {
+                return Err(Failure::Input(format!(
+                    "`{}` is a declaration: say --errors E.toml, or give the instrument file that `calibrate` writes",
+                    self.chain.display()
+                )));
+            }
+        };
+        Ok(Model { chain, values, found, instrument })
     }
 
     /// Writes the table with a quantity of each observable.
@@ -101,7 +138,7 @@ impl OverTable {
         let evaluator = Evaluator::new(&chain, chosen, form, quantity, &values);
         table.want(&chain, &evaluator.readings)?;
         let added = column_names(&chain, &evaluator.observables)?;
-        self.write(table, &added, |rows| {
+        self.write(table, &added, Place::Behind, |rows| {
             let readings: Vec<_> =
                 rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
             Ok(evaluator.columns(&readings, rows.count)?)
@@ -116,18 +153,24 @@ impl OverTable {
         &self,
         table: ReadingsTable<'static>,
         added: &[String],
+        place: Place,
         mut compute: impl FnMut(&Rows) -> Result<Vec<Vec<f64>>, Failure>,
     ) -> Result<(), Failure> {
         let is_replaced = table.replaced_by(added);
-        let is_kept: Vec<bool> = is_replaced.iter().map(|replaced| !replaced).collect();
-        let header: Vec<String> = table.names_of(&is_kept).into_iter().chain(added.iter().cloned()).collect();
+        let order = order(&table, added, &is_replaced, place);
+        let name = |from: &Origin| match *from {
+            Origin::Input(at) => table.header()[at].full.clone(),
+            Origin::Computed(at) => added[at].clone(),
+        };
+        let header: Vec<String> = order.iter().map(name).collect();
+        let kept: Vec<Option<usize>> = order.iter().map(Origin::input).collect();
         let mut not_finite = 0;
         let mut done = 0_usize;
         let progress = terminal::progress();
         progress.say("reading the header");
         let table = table_files::write(&self.out, |writer| {
             // A large table is read once for the types of its texts.
-            writer.header_beside(&header, &table, &is_kept, |share| {
+            writer.header_beside(&header, &table, &kept, |share| {
                 progress
                     .say(&format!("{:.0} % of the file read for the types of its columns", 100.0 * share));
             })?;
@@ -136,9 +179,13 @@ impl OverTable {
                 let computed = compute(&rows)?;
                 let is_finite = |row: &usize| computed.iter().all(|column| column[*row].is_finite());
                 not_finite += (0..rows.count).filter(|row| !is_finite(row)).count();
-                let kept = rows.kept.into_iter().zip(&is_replaced).filter(|(_, replaced)| !**replaced);
-                let kept = kept.map(|(kept, _)| Column::Kept(kept));
-                writer.rows(kept.chain(computed.into_iter().map(Column::Numbers)).collect(), rows.count)?;
+                let mut kept: Vec<Option<Kept>> = rows.kept.into_iter().map(Some).collect();
+                let mut computed: Vec<Option<Vec<f64>>> = computed.into_iter().map(Some).collect();
+                let columns = order.iter().filter_map(|from| match *from {
+                    Origin::Input(at) => kept[at].take().map(Column::Kept),
+                    Origin::Computed(at) => computed[at].take().map(Column::Numbers),
+                });
+                writer.rows(columns.collect(), rows.count)?;
                 done += rows.count;
                 progress.say(&so_far(done as u64, share_read, began.elapsed()));
                 Ok(())
@@ -154,6 +201,48 @@ impl OverTable {
         }
         Ok(())
     }
+}
+
+/// Where columns that are computed stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// Behind all of the input.
+    Behind,
+    /// Where the input has a column of their name, else behind.
+    OfTheirName,
+}
+
+/// Where a column of the output comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Origin {
+    Input(usize),
+    Computed(usize),
+}
+
+impl Origin {
+    fn input(&self) -> Option<usize> {
+        if let Self::Input(at) = self { Some(*at) } else { None }
+    }
+}
+
+/// The columns of the output in order.
+fn order(table: &ReadingsTable<'_>, added: &[String], is_replaced: &[bool], place: Place) -> Vec<Origin> {
+    let of_name = |name: &String| match place {
+        Place::Behind => None,
+        Place::OfTheirName => table.replaced_by(std::slice::from_ref(name)).iter().position(|is| *is),
+    };
+    let at: Vec<Option<usize>> = added.iter().map(of_name).collect();
+    let here = |column: usize| at.iter().position(|own| *own == Some(column)).map(Origin::Computed);
+    let columns = is_replaced.iter().enumerate().filter_map(|(column, is_replaced)| {
+        if *is_replaced { here(column) } else { Some(Origin::Input(column)) }
+    });
+    let mut all: Vec<Origin> = columns.collect();
+    for computed in (0..added.len()).map(Origin::Computed) {
+        if !all.contains(&computed) {
+            all.push(computed);
+        }
+    }
+    all
 }
 
 /// Lets `take` have all rows of a table in order, and the share of it that was read; the next ones are read while it works. Gives the

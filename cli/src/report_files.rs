@@ -13,7 +13,8 @@ use crate::output::Folder;
 use crate::terminal;
 
 /// The files of every calibration in its folder.
-const NAMES: [&str; 5] = ["report.html", "report.json", "amended.chain", "errors.toml", "residuals.csv"];
+const NAMES: [&str; 6] =
+    ["report.html", "report.json", "instrument.toml", "amended.chain", "errors.toml", "residuals.csv"];
 
 /// The files that a calibration of a plan may write into its folder.
 pub fn file_names(plan: &Plan) -> impl Iterator<Item = &'static str> {
@@ -22,11 +23,16 @@ pub fn file_names(plan: &Plan) -> impl Iterator<Item = &'static str> {
 }
 
 /// Writes `report.html`, `report.json` and, with the rows that are shown, `residuals.csv` into a folder, which is made if it is not there;
-/// and, where a usable model came out, `amended.chain` and `errors.toml`, and `objects.csv` and `stations.csv` where there are such. They appear together, or not at all.
+/// and, where a usable model came out, the `instrument` as `instrument.toml`, `amended.chain` and `errors.toml`, and `objects.csv` and `stations.csv` where there are such. They appear together, or not at all.
 ///
 /// # Errors
 /// The folder or a file cannot be written; nothing has changed then.
-pub fn write_all(reported: &Reported<'_>, shown: &Shown, folder: &Path) -> Result<(), Failure> {
+pub fn write_all(
+    reported: &Reported<'_>,
+    shown: &Shown,
+    instrument: Option<String>,
+    folder: &Path,
+) -> Result<(), Failure> {
     let mut files = Folder::new(folder)?;
     files.write_text("report.json", &report::json(reported)?)?;
     let calibration = reported.calibration;
@@ -35,9 +41,11 @@ pub fn write_all(reported: &Reported<'_>, shown: &Shown, folder: &Path) -> Resul
             terminal::warn(format_args!("{name} in {} is from an earlier run", folder.display()));
         }
     };
-    for (name, text) in
-        [("amended.chain", calibration.amended.clone()), ("errors.toml", errors_file::errors(reported))]
-    {
+    for (name, text) in [
+        ("instrument.toml", instrument),
+        ("amended.chain", calibration.amended.clone()),
+        ("errors.toml", errors_file::errors(reported)),
+    ] {
         match text {
             Some(text) => files.write_text(name, &text)?,
             None => is_left(name),

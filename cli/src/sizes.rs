@@ -8,7 +8,7 @@ use crate::terminal;
 /// The file with the largest sizes of the errors.
 #[derive(Debug, clap::Args)]
 pub struct SizesArgument {
-    /// Largest sizes of the errors
+    /// Largest sizes of the errors; default, of an instrument file: what its calibration says of them
     #[arg(long, value_name = "BOX.toml")]
     sizes: Option<PathBuf>,
     /// The same, by its former name

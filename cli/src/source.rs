@@ -4,11 +4,13 @@ use std::fs::{self, File};
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-use model_core::{Chain, names};
-use service::{Source, errors_file};
+use model_core::{Chain, Quantity, SymbolId, SymbolKind, names};
+use service::{Instrument, Source, errors_file};
 
 use crate::failure::Failure;
-use crate::terminal;
+use crate::ranges::{self, Range, RangeArgument};
+use crate::sizes::SizesArgument;
+use crate::{date, terminal};
 
 /// Reads a file; `-` is standard input.
 ///
@@ -39,14 +41,71 @@ pub fn chain(path: &Path) -> Result<Chain, Failure> {
     Ok(read(path)?.chain(&terminal::warn)?)
 }
 
-/// Reads a declaration and the largest sizes of its errors.
-///
-/// # Errors
-/// A file cannot be read, or has a mistake.
-pub fn chain_and_sizes(declaration: &Path, sizes: &Path) -> Result<(Chain, Vec<f64>), Failure> {
-    let declared = chain(declaration)?;
-    let sizes = errors_file::largest_sizes(&read(sizes)?, &declared, &terminal::warn)?;
-    Ok((declared, sizes))
+/// A declaration, or an instrument file in its place.
+pub struct Declared {
+    /// The text of the declaration.
+    pub source: Source,
+    /// The declaration; of an instrument with the constants of its calibration.
+    pub chain: Chain,
+    /// The instrument, if its file was given.
+    pub instrument: Option<Instrument>,
+}
+
+impl Declared {
+    /// Reads it; warns of what is doubtful of it, and of an instrument whose date is over.
+    ///
+    /// # Errors
+    /// As [`read`]; and the mistakes of the file, each with its place.
+    pub fn read(path: &Path) -> Result<Self, Failure> {
+        let source = read(path)?;
+        if !source.is_instrument() {
+            let chain = source.chain(&terminal::warn)?;
+            return Ok(Self { source, chain, instrument: None });
+        }
+        let instrument = Instrument::of(&source, &terminal::warn)?;
+        instrument.expired(&date::today()).iter().for_each(terminal::warn);
+        let (source, chain) = (instrument.declaration.clone(), instrument.chain.clone());
+        Ok(Self { source, chain, instrument: Some(instrument) })
+    }
+
+    /// The largest sizes of its errors, SI: those of the file that is named, or what an instrument knows of them.
+    ///
+    /// # Errors
+    /// The file cannot be read or has a mistake; none is named beside a declaration.
+    pub fn sizes(&self, argument: &SizesArgument) -> Result<Vec<f64>, Failure> {
+        let named = argument.given();
+        let (None, Some(instrument)) = (named, &self.instrument) else {
+            let file = read(named.map_or_else(|| argument.needed(), Ok)?)?;
+            return Ok(errors_file::largest_sizes(&file, &self.chain, &terminal::warn)?);
+        };
+        let uncertain = instrument.covariance.as_ref();
+        let is_alone = |id: &SymbolId| uncertain.and_then(|own| own.standard_uncertainty(*id)).is_none();
+        let of_alone = match self.chain.symbols_of(SymbolKind::Error).filter(is_alone).count() {
+            0 => String::new(),
+            1 => "; the value alone of 1 error that the data do not determine by itself".to_owned(),
+            count => format!("; the value alone of {count} errors that the data do not determine one by one"),
+        };
+        terminal::note(format_args!(
+            "sizes of errors: the value plus two standard uncertainties{of_alone}. Give others with --sizes BOX.toml"
+        ));
+        Ok(instrument.sizes())
+    }
+
+    /// The ranges of its joints and inputs that were typed; what has no full turn takes that which an instrument was measured over.
+    ///
+    /// # Errors
+    /// As [`ranges::of_chain`].
+    pub fn ranges(&self, arguments: &[RangeArgument]) -> Result<Vec<Range>, Failure> {
+        let mut all = ranges::of_chain(&self.chain, arguments)?;
+        for found in self.instrument.iter().flat_map(|instrument| &instrument.found) {
+            let symbol = self.chain.symbol(found.symbol);
+            let turns = symbol.kind == SymbolKind::Joint && symbol.quantity == Quantity::Angle;
+            if !turns && !all.iter().any(|range| range.symbol == found.symbol) {
+                all.push(Range { symbol: found.symbol, low: found.low, high: found.high });
+            }
+        }
+        Ok(all)
+    }
 }
 
 /// The longest declaration, claims, errors or study file, in bytes: beyond any that a person writes.

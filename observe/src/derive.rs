@@ -124,6 +124,12 @@ impl Derived {
         }
     }
 
+    /// Whether its value in a row depends on the rows before.
+    #[must_use]
+    pub fn follows_rows(&self) -> bool {
+        matches!(self, Self::Direction { .. } | Self::Rate { .. } | Self::Elapsed { .. })
+    }
+
     /// What it measures.
     #[must_use]
     pub fn quantity(&self) -> Quantity {

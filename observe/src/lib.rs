@@ -27,7 +27,10 @@ pub use origin::{Origin, Origins};
 pub use places::places;
 pub use poses::{Poses, Series};
 pub use si_unit::SiUnit;
-pub use tangent::{direction_from_offset, direction_from_spherical, tangent_frame};
+pub use tangent::{
+    direction_from_offset, direction_from_spherical, offset_of_direction, spherical_of_direction,
+    tangent_frame,
+};
 
 use std::collections::BTreeSet;
 

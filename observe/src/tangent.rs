@@ -35,6 +35,19 @@ pub fn direction_from_offset(direction: &Vector3<f64>, across_rad: f64, along_ra
     (direction + across * across_rad + along * along_rad).normalize()
 }
 
+/// The offset (across, along; rad) of a vector from a direction, on its tangent plane: what [`direction_from_offset`] takes.
+#[must_use]
+pub fn offset_of_direction(direction: &Vector3<f64>, vector: &Vector3<f64>) -> [f64; 2] {
+    let towards = vector.dot(direction);
+    tangent_frame(direction).map(|axis| vector.dot(&axis) / towards)
+}
+
+/// Azimuth and elevation of a vector, rad: the azimuth from −π to π.
+#[must_use]
+pub fn spherical_of_direction(vector: &Vector3<f64>) -> [f64; 2] {
+    [vector.x.atan2(vector.y), vector.z.atan2(vector.x.hypot(vector.y))]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -68,5 +81,17 @@ mod tests {
         let u = direction_from_spherical(0.3, 0.8);
         let moved = direction_from_offset(&u, 0.02, 0.0);
         assert_relative_eq!(u.dot(&moved).acos().tan(), 0.02, epsilon = 1e-12);
+        let back = offset_of_direction(&u, &(direction_from_offset(&u, 0.02, -0.3) * 7.0));
+        assert_relative_eq!(back[0], 0.02, epsilon = 1e-14);
+        assert_relative_eq!(back[1], -0.3, epsilon = 1e-14);
+    }
+
+    #[test]
+    fn two_angles_come_back() {
+        for (a, e) in [(0.3, 0.8), (-3.0, -1.5), (3.1, 0.0)] {
+            let [azimuth, elevation] = spherical_of_direction(&(direction_from_spherical(a, e) * 3.0));
+            assert_relative_eq!(azimuth, a, epsilon = 1e-14);
+            assert_relative_eq!(elevation, e, epsilon = 1e-14);
+        }
     }
 }

@@ -68,7 +68,7 @@ def test_a_notebook_shows_the_first_screen_and_the_pictures(example):
 def test_the_files_are_those_of_the_command(example, tmp_path):
     example.write(tmp_path / "result")
     names = {path.name for path in (tmp_path / "result").iterdir()}
-    assert names == {"report.html", "report.json", "amended.chain", "errors.toml", "residuals.csv"}
+    assert names == {"report.html", "report.json", "instrument.toml", "amended.chain", "errors.toml", "residuals.csv"}
     report = json.loads((tmp_path / "result" / "report.json").read_text())
     assert report == example.report
     assert (tmp_path / "result" / "amended.chain").read_text() == example.amended

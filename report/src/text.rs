@@ -32,7 +32,7 @@ pub struct Layout {
 #[must_use]
 pub fn as_text(reported: &Reported<'_>, layout: Layout) -> Screen {
     let diagnosis = &reported.calibration.diagnosis;
-    let answers = words::answers(diagnosis, reported.folder);
+    let answers = words::answers(diagnosis, reported.folder, &reported.provenance.command);
     let mut page = Page { text: Screen::default(), layout };
     page.answers(&answers, diagnosis);
     page.residuals(diagnosis);

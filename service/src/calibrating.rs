@@ -6,9 +6,10 @@ use std::path::Path;
 use calibration::calibrate::{Calibration, Request, Stage, calibrate_telling};
 use observe::Observations;
 use report::{FileRead, Provenance, Reported};
-use study::{Loaded, OpenTable, Plan, Study};
+use study::{Loaded, OpenTable, Plan, Study, WrittenColumn};
 use tables::formats::{self, sha256};
 
+use crate::instrument;
 use crate::refusal::Refusal;
 use crate::source::Source;
 use crate::warn::Warn;
@@ -53,6 +54,8 @@ pub struct Calibrated {
     pub calibration: Calibration,
     studied: Studied,
     observations: Observations,
+    /// How each source writes what was observed.
+    observed: Vec<Vec<WrittenColumn>>,
     provenance: Provenance,
 }
 
@@ -182,7 +185,8 @@ impl Measured {
         let Made { version, command, date } = made;
         let study = studied.study.text.clone();
         let provenance = Provenance { version, command, date, study, files: Vec::new(), warnings };
-        Ok(Calibrated { calibration, studied, observations, provenance })
+        let observed = sample.observed();
+        Ok(Calibrated { calibration, studied, observations, observed, provenance })
     }
 }
 
@@ -202,6 +206,12 @@ impl Calibrated {
     #[must_use]
     pub fn observations(&self) -> &Observations {
         &self.observations
+    }
+
+    /// The instrument file, where a usable model came out; `valid_until` is the last day on which it is to count, as `2027-06-30`.
+    #[must_use]
+    pub fn instrument(&self, valid_until: Option<&str>) -> Option<String> {
+        instrument::instrument(&self.reported(None), &self.observed, valid_until)
     }
 
     /// What is reported; `folder` is where the files go to, if they are written.

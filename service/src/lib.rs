@@ -8,6 +8,7 @@ pub mod budget;
 pub mod calibrating;
 pub mod errors_file;
 pub mod evaluation;
+pub mod instrument;
 pub mod over_memory;
 pub mod readings;
 mod refusal;
@@ -16,6 +17,7 @@ pub mod tolerance;
 mod warn;
 
 pub use calibrating::{Calibrated, Made, Measured, Studied};
+pub use instrument::Instrument;
 pub use refusal::Refusal;
 pub use source::Source;
 pub use warn::Warn;

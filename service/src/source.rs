@@ -12,6 +12,9 @@ use study::Study;
 use crate::refusal::Refusal;
 use crate::warn::Warn;
 
+/// The first key of an instrument file.
+pub const INSTRUMENT: &str = "instrument";
+
 /// A text and where it came from.
 #[derive(Debug, Clone)]
 pub struct Source {
@@ -51,6 +54,12 @@ impl Source {
     }
 
     fn cautioned(&self, chain: Result<Chain, Mistakes>, warn: Warn<'_>) -> Result<Chain, Refusal> {
+        if self.is_instrument() {
+            return Err(Refusal::Input(format!(
+                "`{}` is an instrument file; needed here is a declaration: give `amended.chain`, which `calibrate` writes beside it",
+                self.path.display()
+            )));
+        }
         let chain = chain.map_err(|mistakes| match self.declaration_named() {
             Some(named) => Refusal::Input(format!(
                 "`{}` is no declaration, but names one: give `{}`",
@@ -85,13 +94,24 @@ impl Source {
             .map_err(|mistakes| self.is_declaration().unwrap_or_else(|| self.mistakes(&mistakes)))
     }
 
+    /// Whether it is an instrument file: it says so with its first key, damaged or not; where it is whole, with any key.
+    #[must_use]
+    pub fn is_instrument(&self) -> bool {
+        let mut lines = self.text.lines().map(str::trim_start);
+        let first = lines.find(|line| !line.is_empty() && !line.starts_with('#'));
+        let behind = first.and_then(|line| line.strip_prefix(INSTRUMENT));
+        let has_key =
+            || toml::from_str(&self.text).is_ok_and(|table: toml::Table| table.contains_key(INSTRUMENT));
+        behind.is_some_and(|behind| behind.trim_start().starts_with('=')) || has_key()
+    }
+
     /// What to say where a declaration was given for a file that names one.
     fn is_declaration(&self) -> Option<Refusal> {
         let opens = |line: &str| {
             let rest = line.trim_start().strip_prefix("chain")?;
             rest.starts_with(char::is_whitespace).then(|| !rest.contains('=') && rest.contains('{'))
         };
-        if !self.text.lines().any(|line| opens(line) == Some(true)) {
+        if self.is_instrument() || !self.text.lines().any(|line| opens(line) == Some(true)) {
             return None;
         }
         let file = self.path.display();

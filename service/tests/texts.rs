@@ -3,20 +3,24 @@
 
 use std::cell::RefCell;
 
-use service::{Calibrated, Made, Refusal, Source, Studied, errors_file};
+use service::{Calibrated, Instrument, Made, Refusal, Source, Studied, errors_file};
 
 const CHAIN: &str = include_str!("../../examples/turntable/turntable.chain");
 const STUDY: &str = include_str!("../../examples/turntable/turntable.toml");
 const DATA: &[u8] = include_bytes!("../../examples/turntable/measured.csv");
 
-fn studied(study: &str) -> Result<Studied, Refusal> {
-    let chain = |_: &Source, _: &std::path::Path| Ok(Source::of_text("turntable.chain", CHAIN));
+fn studied(study: &str, chain: &str) -> Result<Studied, Refusal> {
+    let chain = |_: &Source, _: &std::path::Path| Ok(Source::of_text("turntable.chain", chain));
     Studied::read(Source::of_text("study.toml", study), &|_| (), chain)
 }
 
 fn calibrated(tables: &[(&str, &[u8])]) -> Result<Calibrated, Refusal> {
+    calibrated_of(CHAIN, tables)
+}
+
+fn calibrated_of(chain: &str, tables: &[(&str, &[u8])]) -> Result<Calibrated, Refusal> {
     let made = Made { version: "1.2.3", command: "a page".to_owned(), date: "2026-11-27".to_owned() };
-    studied(STUDY)?.calibrate_texts(tables, made, &|_| (), &|_| ())
+    studied(STUDY, chain)?.calibrate_texts(tables, made, &|_| (), &|_| ())
 }
 
 #[test]
@@ -55,6 +59,44 @@ fn what_was_found_is_read_again() {
     assert_eq!(warned.into_inner(), Vec::<String>::new());
 }
 
+/// An instrument file has the numbers of the calibration to the last bit, whatever its declaration has in its comments.
+#[test]
+fn an_instrument_file_says_what_was_found() {
+    let quoted = CHAIN.replacen('{', "{ // a comment with ''' in it and a \\ and \"\"\"\n", 1);
+    for chain in [CHAIN, &quoted] {
+        let calibrated = calibrated_of(chain, &[("measured.csv", DATA)]).unwrap();
+        let found = &calibrated.calibration;
+        let text = calibrated.instrument(Some("2027-06-30")).unwrap();
+        let source = Source::of_text("instrument.toml", &text);
+        let instrument = Instrument::of(&source, &|warning| panic!("{warning}"))
+            .unwrap_or_else(|why| panic!("{why}\n{text}"));
+        assert_eq!(Some(&instrument.declaration.text), found.amended.as_ref());
+        for symbol in &found.chain.symbols {
+            let [of_file, own] =
+                [&instrument.chain, &found.chain].map(|chain| chain.find_symbol(&symbol.name).unwrap());
+            assert_eq!(
+                instrument.values[of_file.index()],
+                found.after.values[own.index()],
+                "{}",
+                symbol.name
+            );
+        }
+        let covariance = instrument.covariance.as_ref().unwrap();
+        assert_eq!(covariance.of.len(), found.after.parameters.len());
+        for (row, numbers) in covariance.rows.iter().enumerate() {
+            let id = found.after.parameters[row];
+            let own = found.after.standard_uncertainty(id).unwrap();
+            assert!((numbers[row].sqrt() / own - 1.0).abs() < 1e-12, "{}", found.chain.symbol(id).name);
+        }
+        assert_eq!(instrument.expired("2027-06-30"), None);
+        assert!(instrument.expired("2027-07-01").is_some_and(|why| why.contains("2027-06-30")));
+        // The headings of the data, whose unit stands in their header.
+        let headings = instrument.headings.as_ref().unwrap();
+        assert_eq!(headings.sources.len(), 1);
+        assert_eq!(instrument.corrected[0]["y"].text, "pointing_y");
+    }
+}
+
 #[test]
 fn a_table_that_was_not_given_is_named() {
     let refused = calibrated(&[("other.csv", DATA)]).err().unwrap().to_string();
@@ -65,6 +107,6 @@ fn a_table_that_was_not_given_is_named() {
 
 #[test]
 fn a_mistake_is_shown_where_it_stands() {
-    let Err(Refusal::Mistakes { rendered, .. }) = studied("chain = 1\n") else { panic!("no mistake") };
+    let Err(Refusal::Mistakes { rendered, .. }) = studied("chain = 1\n", CHAIN) else { panic!("no mistake") };
     assert!(rendered.contains("study.toml:1"), "{rendered}");
 }

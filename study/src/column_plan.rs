@@ -7,6 +7,7 @@ use model_core::unit::{Measures, Unit};
 use super::conversion::Conversion;
 use super::mistakes::{Outcome, mistake, plain};
 use super::written::Column;
+use tables::formats::{ColumnName, DataError, ReadAs, find_column, find_reading};
 
 /// A column that is to be found in a file.
 #[derive(Debug, Clone)]
@@ -36,6 +37,39 @@ impl ColumnPlan {
     /// A column that a study names, of times.
     pub fn of_times(name: &str) -> Self {
         Self { measures: Measures::Time, declared: false, ..Self::of_numbers(name) }
+    }
+}
+
+/// Where a column stands in a file, and how its numbers are read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ColumnAt {
+    /// Its index in the header.
+    pub at: usize,
+    /// What takes its numbers to SI; 1 where they are packed.
+    pub factor: f64,
+    /// Whether nothing says their unit.
+    pub is_bare: bool,
+    /// How they become readings then.
+    pub conversion: Conversion,
+}
+
+impl ColumnPlan {
+    /// Finds it among the columns of a file; `declared` are the names of the chain.
+    pub fn find(&self, header: &[ColumnName], declared: &[&str], file: &str) -> Result<ColumnAt, DataError> {
+        let Self { name, unit, measures, conversion, .. } = self;
+        let at = if self.named {
+            find_column(header, name, file)?
+        } else {
+            find_reading(header, name, declared, file)?
+        };
+        let own = self.declared.then_some(name.as_str());
+        let read = ReadAs { measures: *measures, stated: *unit, declared: own };
+        let (factor, is_bare) = match conversion.notation {
+            // Its digits are degrees or hours whatever the header says.
+            Some(_) => (1.0, false),
+            None => (header[at].factor(read, file)?, header[at].is_bare(read)),
+        };
+        Ok(ColumnAt { at, factor, is_bare, conversion: *conversion })
     }
 }
 

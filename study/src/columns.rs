@@ -5,9 +5,7 @@ use model_core::SymbolId;
 use super::column_plan::ColumnPlan;
 use super::plan::{Plan, Reading, SourcePlan};
 use super::uncertain::Uncertain;
-use tables::formats::{
-    DataError, Form, ReadAs, TableReader, Wanted, declared_columns, find_column, find_reading,
-};
+use tables::formats::{DataError, Form, TableReader, Wanted, declared_columns, find_column};
 use tables::units::{BareColumn, Plausible};
 
 /// Columns whose unit nothing says, each with its place among the numbers.
@@ -85,19 +83,7 @@ impl Columns {
         let mut bare = Vec::new();
         let mut wanted = Vec::new();
         for (at, column) in self.plans.iter().enumerate() {
-            let ColumnPlan { name, unit, measures, .. } = column;
-            let found = if column.named {
-                find_column(header, name, file)?
-            } else {
-                find_reading(header, name, &declared, file)?
-            };
-            let own = column.declared.then_some(name.as_str());
-            let read = ReadAs { measures: *measures, stated: *unit, declared: own };
-            let factor = match column.conversion.notation {
-                // Its digits are degrees or hours whatever the header says.
-                Some(_) => 1.0,
-                None => header[found].factor(read, file)?,
-            };
+            let found = column.find(header, &declared, file)?;
             let symbol = self.readings.iter().find(|(_, reading)| *reading == at).map(|(symbol, _)| *symbol);
             let plausible = if let Some(symbol) = symbol {
                 Plausible::readings(&plan.chain, symbol)
@@ -106,10 +92,11 @@ impl Columns {
             } else {
                 Plausible::measured(&plan.chain, source.observable)
             };
-            if column.conversion.notation.is_none() && header[found].is_bare(read) {
-                bare.push((at, BareColumn::new(plausible, measures.quantity(), &header[found].full, file)));
+            if found.is_bare {
+                let name = &header[found.at].full;
+                bare.push((at, BareColumn::new(plausible, column.measures.quantity(), name, file)));
             }
-            wanted.push(Wanted { column: found, form: Form::Number(factor) });
+            wanted.push(Wanted { column: found.at, form: Form::Number(found.factor) });
         }
         for name in &self.labels {
             wanted.push(Wanted { column: find_column(header, name, file)?, form: Form::Label });

@@ -64,6 +64,23 @@ impl Notation {
         let angle_rad = (large + minutes / 60.0 + seconds / 3600.0) * unit;
         (angle_rad.copysign(number), minutes < 60.0 && seconds < 60.0)
     }
+
+    /// The number that says an angle, rad, to the hundred-millionth of a second that [`Self::unpack`] reads.
+    #[must_use]
+    pub fn pack(self, angle_rad: f64) -> f64 {
+        let (unit, step) = match self {
+            Self::Degrees => (PI / 180.0, 1e-4),
+            Self::Hours => (PI / 12.0, 1.0),
+            Self::Counts(per_turn) => return angle_rad / TAU * per_turn,
+        };
+        let seconds = (angle_rad.abs() / unit * 3600.0 * 1e8).round() / 1e8;
+        let (large, rest) = ((seconds / 3600.0).floor(), seconds.rem_euclid(3600.0));
+        let minutes = (rest / 60.0).floor();
+        let packed = large * 1e4 + minutes * 100.0 + (rest - minutes * 60.0);
+        // To the digits that are known, so that no binary fraction is written out.
+        let digits = 1e8 / step;
+        ((packed * step * digits).round() / digits).copysign(angle_rad)
+    }
 }
 
 /// What is done to the numbers of a column: unpacked, turned round, moved, and taken from other rows.
@@ -115,6 +132,20 @@ impl Conversion {
     pub fn value(&self, number: f64) -> f64 {
         let plain = self.notation.map_or(number, |notation| notation.unpack(number).0);
         (if self.negated { -plain } else { plain }) + self.offset_si
+    }
+
+    /// What stands in the file for a reading, rad, m or 1, before its notation: the inverse of [`Self::value`] up to
+    /// [`Self::packed`].
+    #[must_use]
+    pub fn plain(&self, reading: f64) -> f64 {
+        let plain = reading - self.offset_si;
+        if self.negated { -plain } else { plain }
+    }
+
+    /// The same in the notation of the column; `in_si` is the size of its unit where it has one.
+    #[must_use]
+    pub fn packed(&self, plain: f64, in_si: f64) -> f64 {
+        self.notation.map_or(plain / in_si, |notation| notation.pack(plain))
     }
 }
 
@@ -168,6 +199,16 @@ mod tests {
         let (angle_rad, _) = Notation::Hours.unpack(123_456.7);
         let hours = 12.0 + 34.0 / 60.0 + 56.7 / 3600.0;
         approx::assert_abs_diff_eq!(angle_rad.to_degrees(), 15.0 * hours, epsilon = 1e-10);
+        for notation in [Notation::Degrees, Notation::Hours] {
+            for angle_deg in [0.0, 12.582_5, -53.1, 359.999_999_999_9, 29.999_999_999_99, 1e-7] {
+                let angle_rad = f64::to_radians(angle_deg);
+                let (back, is_sexagesimal) = notation.unpack(notation.pack(angle_rad));
+                // Half of a hundred-millionth of a second of time.
+                approx::assert_abs_diff_eq!(back, angle_rad, epsilon = 4e-13);
+                assert!(is_sexagesimal, "{angle_deg}");
+            }
+        }
+        assert_eq!(Notation::Degrees.pack((12.0 + 34.0 / 60.0 + 56.0 / 3600.0) * PI / 180.0), 12.3456);
         assert!(!Notation::Degrees.unpack(10.755).1);
         assert!(!Notation::Degrees.unpack(10.1575).1);
     }

@@ -120,7 +120,7 @@ pub struct SourcePlan {
     /// How it is written.
     pub(super) way: &'static Written,
     /// The key of each in `[observed]`.
-    observed_keys: Vec<&'static str>,
+    pub(super) observed_keys: Vec<&'static str>,
     /// What the angles are that are observed, where the declaration says so.
     pub(super) convention: Option<Convention>,
     /// How an orientation is written, where one is observed.
@@ -248,7 +248,7 @@ impl Study {
     }
 
     /// What is read, source by source.
-    fn sources(&self, chain: &Chain) -> Outcome<Vec<SourcePlan>> {
+    pub(super) fn sources(&self, chain: &Chain) -> Outcome<Vec<SourcePlan>> {
         if let Some(beyond) = self.also.get(MOST_ALSO) {
             let message = format!("a study has at most {MOST_ALSO} further sources");
             return Err(mistake(

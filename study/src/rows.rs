@@ -35,6 +35,8 @@ pub(super) struct Rows {
     pub headed: Vec<bool>,
     /// What takes the numbers of the column of the order to seconds, by the headers; or why nothing does.
     pub seconds: Result<f64, DataError>,
+    /// Of each column of numbers its heading in the first file.
+    pub headings: Vec<String>,
     /// Columns that the study does not name.
     pub undeclared: Labelled,
     /// Memory that these take, in bytes.
@@ -54,6 +56,7 @@ impl Rows {
             factors: vec![None; columns.plans.len()],
             headed: vec![false; columns.plans.len()],
             seconds: Ok(1.0),
+            headings: Vec::new(),
             undeclared: Labelled::default(),
             bytes: 0,
         }
@@ -83,6 +86,10 @@ impl Rows {
             let read = ReadAs { measures: Measures::Time, stated: None, declared: None };
             let found = find_column(reader.header(), order, reader.source())?;
             self.seconds = reader.header()[found].factor(read, reader.source());
+        }
+        if self.headings.is_empty() {
+            let numbers = wanted.iter().take(columns.plans.len());
+            self.headings = numbers.map(|column| reader.header()[column.column].full.clone()).collect();
         }
         let before = self.row_numbers.last().unwrap_or_default();
         let mut beside = Labelled::beside(&wanted, reader);
@@ -202,6 +209,7 @@ impl Rows {
             factors: self.factors.clone(),
             headed: self.headed.clone(),
             seconds: self.seconds.clone(),
+            headings: self.headings.clone(),
             undeclared: Labelled::default(),
             bytes: 0,
         }

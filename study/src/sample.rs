@@ -82,6 +82,17 @@ pub struct SampledColumn {
     pub written: Vec<f64>,
 }
 
+/// How a file writes a column of what was observed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WrittenColumn {
+    /// Its heading.
+    pub heading: String,
+    /// The size of its unit, rad, m or 1; `None` where its digits are packed, or where files differ.
+    pub in_si: Option<f64>,
+    /// Whether some of its numbers are below zero.
+    pub below_zero: bool,
+}
+
 /// How a column is read otherwise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Change {
@@ -144,6 +155,24 @@ impl Sample {
             [only] => only.of(observations),
             _ => Vec::new(),
         }
+    }
+
+    /// How the files of each source write what was observed, column by column.
+    #[must_use]
+    pub fn observed(&self) -> Vec<Vec<WrittenColumn>> {
+        let of_source = |Sampled { columns, rows, .. }: &Sampled| {
+            let column = |at: usize| {
+                let conversion = columns.plans[at].conversion;
+                let is_below = |reading: &f64| conversion.plain(*reading) < 0.0;
+                WrittenColumn {
+                    heading: rows.headings[at].clone(),
+                    in_si: rows.factors[at].filter(|_| conversion.notation.is_none()),
+                    below_zero: rows.numbers[at].iter().any(is_below),
+                }
+            };
+            columns.observed.clone().map(column).collect()
+        };
+        self.sources.iter().map(of_source).collect()
     }
 
     /// Every column of joints, inputs and observed components whose numbers stand in the file as the study reads them.

@@ -11,8 +11,8 @@ use nalgebra::Vector3;
 
 use super::mistakes::{Outcome, mistake};
 use super::written::Kind;
-use observe::direction_from_spherical;
 use observe::kinds::OfReadings;
+use observe::{direction_from_spherical, spherical_of_direction};
 
 /// Where two measured angles are zero, and which way they turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,6 +38,17 @@ impl Convention {
         let vector =
             along(self.through) * direction.x + along(self.zero) * direction.y + along(self.up) * direction.z;
         (vector, elevation)
+    }
+
+    /// The two angles of a vector, rad, as [`Self::direction`] takes them.
+    pub(crate) fn angles(&self, vector: &Vector3<f64>) -> [f64; 2] {
+        let along = |axis: SignedAxis| {
+            if axis.is_negative { -vector[axis.axis.index()] } else { vector[axis.axis.index()] }
+        };
+        let turned = Vector3::new(along(self.through), along(self.zero), along(self.up));
+        let [azimuth_rad, elevation_rad] = spherical_of_direction(&turned);
+        let from_zenith = std::f64::consts::FRAC_PI_2 - elevation_rad;
+        [azimuth_rad, if self.from_zenith { from_zenith } else { elevation_rad }]
     }
 }
 

@@ -39,7 +39,7 @@ fn forty_percent_outliers_are_set_aside() {
     for row in 0..120 {
         let to: f64 = simulation.rng().random_range(0.002..0.5);
         let aim = observations.measured[row].vector().unwrap();
-        let moved = nalgebra::Vector3::new(aim.x + to, aim.y - to, aim.z).normalize();
+        let moved = Vector3::new(aim.x + to, aim.y - to, aim.z).normalize();
         observations.measured[row] = Measured::Direction(moved);
     }
     let result = fitted(&simulation, &observations);

@@ -11,6 +11,7 @@ use service::tolerance::{
     Campaign, NotAllocated, Sensitivity, Wish, after, allocate, registered, root_sum_square, simulate,
     worst_case,
 };
+use tables::formats::Options;
 
 use super::options::{DesignerArguments, at_observable, is_meant_for};
 use crate::failure::Failure;
@@ -127,7 +128,7 @@ fn readings(
     observable: ObservableId,
     path: &Path,
 ) -> Result<Vec<(SymbolId, Vec<f64>)>, Failure> {
-    let mut table = table_files::open_kept(path, chain, None)?;
+    let mut table = table_files::open_kept(path, chain, Options::default())?;
     let needed = readings_of(chain, observable);
     table.want(chain, &needed)?;
     let mut found: Vec<(SymbolId, Vec<f64>)> = needed.iter().map(|&id| (id, Vec::new())).collect();

@@ -3,8 +3,10 @@
 use std::path::PathBuf;
 
 use model_core::{ObservableId, Quantity as Measures, SymbolId, SymbolKind};
-use service::apply::{self, Outside, Seen, Solver};
+use service::Instrument;
+use service::apply::{self, AsMeasured, Outside, Seen, Solver, in_vectors};
 use service::evaluation::{Evaluator, Exactness, Quantity, column_names, readings_of};
+use service::readings::ReadingsTable;
 use service::source::observables;
 use tables::units;
 
@@ -16,32 +18,36 @@ use crate::failure::Failure;
 use crate::output;
 #[cfg(feature = "point-clouds")]
 use crate::over_table::Model;
-use crate::over_table::{Opened, OverTable};
+use crate::over_table::{Opened, OverTable, Place};
 use crate::{table_files, terminal};
 use model_core::names::listed;
 
 /// Correct new data with a calibrated model.
 ///
-/// Reads columns named like the chain's joints and inputs and writes every column of the input, with the corrected
-/// `<observable>_x`, `_y`, `_z`: where the instrument with its calibrated errors really points, or where its points
-/// really are. Columns of these names in the input, computed without the errors, are replaced, and a warning names them.
+/// Reads any file with the headings of the study, and writes every column of it with what was observed there: where the
+/// instrument with its calibrated errors really points, or where its points really are, under the headings of the study's
+/// data, in their units and notation. Columns of these names in the input are replaced, and a warning names them.
 ///
-/// With --solve it goes the other way: it reads where the instrument is to point, in the columns that it would write
-/// without, and writes the readings of the joints that do so, with the angle or distance that remains. Columns of the
-/// joints in the input are where the search starts; without any it starts from the nearest of poses spread over the ranges
-/// that the model was found over.
+/// With a declaration and --errors it reads columns named like the chain's joints and inputs, and writes the corrected
+/// `<observable>_x`, `_y`, `_z`.
+///
+/// With --solve it goes the other way: it reads where the instrument is to point, in columns `<observable>_x` and so on, and
+/// writes the readings of the joints that do so, with the angle or distance that remains. Columns of the joints in the input
+/// are where the search starts; without any it starts from the nearest of poses spread over the ranges that the model was
+/// found over.
 ///
 /// With a point cloud, a .las or .laz file whose coordinates were computed without the errors, it moves every point to where the
 /// errors have it and keeps every other byte. Readings stand in extra dimensions of the points, or in a table by GPS time.
 ///
-/// Example: trueaxis apply result/amended.chain --errors result/errors.toml --data new.csv --out corrected.csv
+/// Example: trueaxis apply result/instrument.toml --data new.csv --out corrected.csv
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     #[command(flatten)]
     table: OverTable,
-    /// How directions are written, and read with --solve: angles are written in degrees
-    #[arg(long = "as", value_enum, default_value_t = As::Vector)]
-    form: As,
+    /// How directions are written, and read with --solve: angles are written in degrees; default: as the data of an instrument file
+    /// have them, else vector
+    #[arg(long = "as", value_enum)]
+    form: Option<As>,
     /// Write the correction, too: what the calibrated errors add to each column
     #[arg(long)]
     correction: bool,
@@ -78,6 +84,13 @@ impl From<As> for apply::As {
             As::AzimuthElevation => Self::AzimuthElevation,
             As::HaDec => Self::HaDec,
         }
+    }
+}
+
+impl Arguments {
+    /// How directions are written where no data say it.
+    fn form(&self) -> apply::As {
+        self.form.unwrap_or(As::Vector).into()
     }
 }
 
@@ -122,7 +135,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
 fn correct_cloud(arguments: &Arguments) -> Result<(), Failure> {
     let table = &arguments.table;
     let of_tables = [
-        ("--as", arguments.form != As::Vector),
+        ("--as", arguments.form.is_some()),
         ("--correction", arguments.correction),
         ("--solve", arguments.solve),
     ];
@@ -133,7 +146,7 @@ fn correct_cloud(arguments: &Arguments) -> Result<(), Failure> {
     }
     let read = [&table.data].into_iter().chain(&arguments.readings);
     output::refuse_to_replace(&table.out, read.map(PathBuf::as_path))?;
-    let Model { chain, values, found } = table.model()?;
+    let Model { chain, values, found, .. } = table.model()?;
     cloud::correct(cloud::Correction {
         chain: &chain,
         values: &values,
@@ -149,12 +162,18 @@ fn correct_cloud(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn correct(arguments: &Arguments) -> Result<(), Failure> {
-    let Opened { chain, values, found, mut table } = arguments.table.open()?;
+    let Opened { chain, values, found, instrument, mut table } = arguments.table.open()?;
+    if let (None, Some(instrument), Some(source)) = (arguments.form, &instrument, table.source_of_study())
+        && let Some(seen) = AsMeasured::of(instrument, source)
+        && arguments.table.observable.iter().all(|name| chain.observable(seen.observable).name == *name)
+    {
+        return correct_as_measured(arguments, instrument, &seen, table);
+    }
     let chosen = table.with_readings(&chain, &arguments.table.observable)?;
     let is_named = !arguments.table.observable.is_empty();
     let seen: Vec<Seen> = chosen
         .iter()
-        .map(|&observable| Seen::new(&chain, observable, arguments.form.into(), is_named))
+        .map(|&observable| Seen::new(&chain, observable, arguments.form(), is_named))
         .collect::<Result<_, _>>()?;
     let evaluator = |quantity| Evaluator::new(&chain, chosen.clone(), Exactness::Exact, quantity, &values);
     let value = evaluator(Quantity::Value);
@@ -165,7 +184,7 @@ fn correct(arguments: &Arguments) -> Result<(), Failure> {
     let added: Vec<String> =
         seen.iter().flat_map(|seen| seen.headers(&chain, arguments.correction)).collect();
     let mut outside = Outside::new(found);
-    arguments.table.write(table, &added, |rows| {
+    arguments.table.write(table, &added, Place::Behind, |rows| {
         let readings: Vec<(SymbolId, &[f64])> =
             rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
         outside.see(&chain, &readings, &value)?;
@@ -183,8 +202,36 @@ fn correct(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Writes what the instrument shows under the headings of its data, in their units and notation.
+fn correct_as_measured(
+    arguments: &Arguments,
+    instrument: &Instrument,
+    seen: &AsMeasured,
+    mut table: ReadingsTable<'static>,
+) -> Result<(), Failure> {
+    let Some((chain, values)) = in_vectors(instrument) else {
+        unreachable!("what is written as it was measured has headings")
+    };
+    let evaluator =
+        |quantity| Evaluator::new(&chain, vec![seen.observable], Exactness::Exact, quantity, &values);
+    let value = evaluator(Quantity::Value);
+    let error = (arguments.correction || seen.needs_error()).then(|| evaluator(Quantity::Error));
+    table.want(&chain, &value.readings)?;
+    let mut outside = Outside::new(instrument.found.clone());
+    arguments.table.write(table, &seen.headers(arguments.correction), Place::OfTheirName, |rows| {
+        let readings: Vec<(SymbolId, &[f64])> =
+            rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
+        outside.see(&chain, &readings, &value)?;
+        let values = value.columns(&readings, rows.count)?;
+        let errors = error.as_ref().map(|error| error.columns(&readings, rows.count)).transpose()?;
+        Ok(seen.columns(&values, errors.as_deref(), arguments.correction))
+    })?;
+    outside.warning(&chain).iter().for_each(terminal::warn);
+    Ok(())
+}
+
 fn solve(arguments: &Arguments) -> Result<(), Failure> {
-    let Opened { chain, values, found, mut table } = arguments.table.open()?;
+    let Opened { chain, values, found, mut table, .. } = arguments.table.open()?;
     let observable = match observables(&chain, &arguments.table.observable)?.as_slice() {
         [one] => *one,
         several => {
@@ -198,7 +245,7 @@ fn solve(arguments: &Arguments) -> Result<(), Failure> {
             "`{name}` shows single readings; joints are solved for a whole direction or point: name one with --observable"
         )));
     }
-    let seen = Seen::new(&chain, observable, arguments.form.into(), true)?;
+    let seen = Seen::new(&chain, observable, arguments.form(), true)?;
     let readings = readings_of(&chain, observable);
     let joints: Vec<SymbolId> =
         readings.into_iter().filter(|&id| chain.symbol(id).kind == SymbolKind::Joint).collect();
@@ -233,7 +280,7 @@ fn solve(arguments: &Arguments) -> Result<(), Failure> {
     let mut outside = Outside::new(found.clone());
     let checked = Evaluator::new(&chain, vec![observable], Exactness::Exact, Quantity::Value, &values);
     let (mut missed, mut farthest, mut count) = (0, 0.0_f64, 0);
-    arguments.table.write(table, &added, |rows| {
+    arguments.table.write(table, &added, Place::Behind, |rows| {
         let columns: Vec<&[f64]> = rows.others.iter().map(Vec::as_slice).collect();
         let wanted: Vec<[f64; 3]> = (0..rows.count).map(|row| seen.vector(&columns, row)).collect();
         let solved = solver.solve(&rows.readings, &wanted)?;

@@ -10,9 +10,10 @@ use service::source::observables;
 use super::{Answer, TextOrJson};
 use crate::expected::{self, Work};
 use crate::failure::Failure;
-use crate::ranges::{self, Range, RangeArgument};
+use crate::ranges::{Range, RangeArgument};
 use crate::sizes::SizesArgument;
-use crate::{source, terminal};
+use crate::source::Declared;
+use crate::terminal;
 
 /// Bound what the first-order form leaves out.
 ///
@@ -24,7 +25,7 @@ use crate::{source, terminal};
 /// --observable pointing
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The declaration
+    /// The declaration, or an instrument file
     chain: PathBuf,
     #[command(flatten)]
     sizes: SizesArgument,
@@ -47,8 +48,10 @@ const STARTS: u32 = 24;
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let (chain, sizes) = source::chain_and_sizes(&arguments.chain, arguments.sizes.needed()?)?;
-    let ranges = ranges::of_chain(&chain, &arguments.range)?;
+    let declared = Declared::read(&arguments.chain)?;
+    let sizes = declared.sizes(&arguments.sizes)?;
+    let ranges = declared.ranges(&arguments.range)?;
+    let chain = declared.chain;
     let waiting = expected::announce(&chain, Work::Bound);
     let answers = bounds(&chain, &sizes, &ranges, &arguments.observable, arguments.seed)?;
     drop(waiting);

@@ -18,9 +18,10 @@ use crate::budget::{DesignerArguments, designed};
 use crate::claims_file::ClaimsFile;
 use crate::expected::{self, Work};
 use crate::failure::Failure;
-use crate::ranges::{self, RangeArgument};
+use crate::ranges::RangeArgument;
 use crate::sizes::SizesArgument;
-use crate::{output, poses, source, terminal};
+use crate::source::Declared;
+use crate::{output, poses, terminal};
 use claims::file::Checked;
 
 /// Measure what each error alone does, what all do together, and what tolerances come to.
@@ -37,7 +38,7 @@ use claims::file::Checked;
 /// --observable pointing --path "alpha=t, beta=t, gamma=t" --steps 5 --out figures
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The declaration
+    /// The declaration, or an instrument file
     chain: PathBuf,
     #[command(flatten)]
     sizes: SizesArgument,
@@ -71,13 +72,16 @@ const POINTS: usize = 361;
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let (chain, sizes) = source::chain_and_sizes(&arguments.chain, arguments.sizes.needed()?)?;
+    let declared = Declared::read(&arguments.chain)?;
+    let sizes = declared.sizes(&arguments.sizes)?;
+    let ranges = declared.ranges(&arguments.range)?;
+    let chain = declared.chain;
     let poses = match &arguments.path {
         Some(text) => Poses::Path(poses::path(&chain, text).map_err(|mistake| {
             let source = Source::of_text("--path", text);
             source.mistake(mistake)
         })?),
-        None => Poses::Ranges(poses::joint_ranges(&ranges::of_chain(&chain, &arguments.range)?)),
+        None => Poses::Ranges(poses::joint_ranges(&ranges)),
     };
     let waiting = expected::announce(&chain, Work::Budget);
     let is_named = !arguments.observable.is_empty();

@@ -12,7 +12,7 @@ use super::{Answer, TextOrJson};
 use crate::failure::Failure;
 use crate::table_files::Files;
 use crate::waiting::Waiting;
-use crate::{calibrating, many, report_files, source, terminal};
+use crate::{calibrating, date, many, report_files, source, terminal};
 
 /// Fit the errors to measured data, and find what the declaration lacks.
 ///
@@ -27,8 +27,8 @@ use crate::{calibrating, many, report_files, source, terminal};
 pub struct Arguments {
     /// The study file
     study: PathBuf,
-    /// Folder for report.html, report.json, amended.chain, errors.toml and residuals.csv, and beside unknown objects objects.csv and
-    /// stations.csv
+    /// Folder for report.html, report.json, instrument.toml, amended.chain, errors.toml and residuals.csv, and beside unknown objects
+    /// objects.csv and stations.csv
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Rows that the search holds at most; of more it reads so many, drawn from all, and a fit reads every row
@@ -37,6 +37,9 @@ pub struct Arguments {
     /// Write every row into residuals.csv; of more than 100,000 rows, a part is written otherwise
     #[arg(long, requires = "out")]
     all_residuals: bool,
+    /// The last day on which the instrument file is to count, as 2027-06-30; behind it, commands that read it warn
+    #[arg(long, value_name = "DATE", requires = "out", value_parser = date::day)]
+    valid_until: Option<String>,
     /// Only print how the declaration would change (with --format json: the whole report, the change in it); write nothing
     #[arg(long, conflicts_with = "out")]
     dry_run: bool,
@@ -103,7 +106,8 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     }
     if let Some(folder) = &arguments.out {
         let shown = report::rows_written(&reported, arguments.all_residuals);
-        report_files::write_all(&reported, &shown, folder)?;
+        let instrument = calibrated.instrument(arguments.valid_until.as_deref());
+        report_files::write_all(&reported, &shown, instrument, folder)?;
         let rows = reported.observations.rows();
         if shown.is_part_of(rows) {
             terminal::note(format_args!(

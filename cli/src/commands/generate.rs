@@ -13,6 +13,7 @@ use super::Answer;
 use crate::expected::{self, Work};
 use crate::failure::Failure;
 use crate::sizes::SizesArgument;
+use crate::source::Declared;
 use crate::{output, source, terminal};
 use model_core::names::listed;
 
@@ -26,7 +27,7 @@ use model_core::names::listed;
 /// --out mobile_lidar.rs
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The declaration
+    /// The declaration; or an instrument file, whose errors and constants are written into the file
     chain: PathBuf,
     /// The language to write
     #[arg(long, value_enum)]
@@ -128,8 +129,7 @@ impl From<FormName> for Form {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let source = source::read(&arguments.chain)?;
-    let chain = source.chain(&terminal::warn)?;
+    let Declared { source, chain, instrument } = Declared::read(&arguments.chain)?;
     let waiting = expected::announce(&chain, Work::Generate);
     let chosen = observables(&chain, &arguments.observable)?;
     let sizes = arguments.sizes.given();
@@ -137,9 +137,10 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         Some(path) => remarks(&chain, &chosen, path)?,
         None => Vec::new(),
     };
-    let values = match &arguments.values {
-        Some(path) => errors_file::named_values(&source::read(path)?, &chain, &terminal::warn)?,
-        None => Vec::new(),
+    let values = match (&arguments.values, instrument) {
+        (Some(path), _) => errors_file::named_values(&source::read(path)?, &chain, &terminal::warn)?,
+        (None, Some(instrument)) => instrument.named,
+        (None, None) => Vec::new(),
     };
     let forms = match arguments.only.as_slice() {
         [] => every_form(),

@@ -31,7 +31,7 @@ use model_core::names::listed;
 /// Example: trueaxis identify examples/mobile-lidar/mobile-lidar.chain --observable pointing
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The declaration, or a study (.toml)
+    /// The declaration, an instrument file, or a study (.toml)
     chain: PathBuf,
     /// This observable (may be given several times: seen together); default: each alone, then all together
     #[arg(long)]
@@ -51,7 +51,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let is_certified = arguments.certificate.is_wanted()?;
     let source = source::read(&arguments.chain)?;
-    if arguments.chain.extension().is_some_and(|ending| ending == "toml") {
+    if !source.is_instrument() && arguments.chain.extension().is_some_and(|ending| ending == "toml") {
         if is_certified || !arguments.observable.is_empty() || arguments.candidate.is_some() {
             let why = "of a study, only --format can be asked for: name the declaration for --observable, --candidate and \
                        certificates";
@@ -64,7 +64,13 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         }
         return Ok(Answer::Done);
     }
-    let chain = source.symbolic_chain(&terminal::warn)?;
+    let (source, chain) = if source.is_instrument() {
+        let source::Declared { source, chain, .. } = source::Declared::read(&arguments.chain)?;
+        (source, chain)
+    } else {
+        let chain = source.symbolic_chain(&terminal::warn)?;
+        (source, chain)
+    };
     let Identified { texts, answers, found: certified } =
         identified(&chain, &arguments.observable, arguments.candidate.as_deref())?;
     let certificate = is_certified.then(|| certify(&source, &certified)).transpose()?;

@@ -17,8 +17,8 @@ use crate::source;
 ///
 /// # Errors
 /// The file cannot be read.
-pub fn open_kept(path: &Path, chain: &Chain, comment: Option<u8>) -> Result<ReadingsTable<'static>, Failure> {
-    Ok(open_readings(path, chain, comment)?.keeping_all())
+pub fn open_kept(path: &Path, chain: &Chain, options: Options) -> Result<ReadingsTable<'static>, Failure> {
+    Ok(open_readings(path, chain, options)?.keeping_all())
 }
 
 /// The same for a file of which nothing but readings is wanted.
@@ -28,10 +28,9 @@ pub fn open_kept(path: &Path, chain: &Chain, comment: Option<u8>) -> Result<Read
 pub fn open_readings(
     path: &Path,
     chain: &Chain,
-    comment: Option<u8>,
+    options: Options,
 ) -> Result<ReadingsTable<'static>, Failure> {
     known_format(path)?;
-    let options = Options { comment, ..Options::default() };
     if path == Path::new("-") {
         let reader = formats::open(io::stdin(), "standard input", &options).map_err(failure)?;
         return Ok(ReadingsTable::of(reader, chain));

@@ -81,7 +81,7 @@ impl TableWriter<'_> {
         }
     }
 
-    /// The same of a table whose columns come first, those of them that are kept; `tell` hears which share of it was read for that.
+    /// The same of a table whose columns are among them: `kept` says which of these each is. `tell` hears which share of it was read for that.
     ///
     /// # Errors
     /// The place cannot be written, or the table cannot be read.
@@ -90,7 +90,7 @@ impl TableWriter<'_> {
         &mut self,
         header: &[String],
         table: &ReadingsTable<'_>,
-        is_kept: &[bool],
+        kept: &[Option<usize>],
         tell: impl Fn(f64),
     ) -> Result<(), Failure> {
         self.header(header)?;
@@ -98,9 +98,8 @@ impl TableWriter<'_> {
         if let Self::Parquet { writer, .. } = self
             && let Some(known) = table.text_types(tell)?
         {
-            let kept = known.into_iter().zip(is_kept).filter(|(_, is_kept)| **is_kept);
-            let mut types: Vec<_> = kept.map(|(known, _)| Some(known)).collect();
-            types.resize(header.len(), None);
+            let types =
+                kept.iter().map(|column| column.and_then(|column| known.get(column).copied())).collect();
             *writer = parquet::Writer::with_types(header.to_vec(), types);
         }
         Ok(())

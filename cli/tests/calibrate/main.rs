@@ -62,7 +62,7 @@ fn the_loop_closes_on_the_mobile_lidar() {
     let (folder, report) = calibrated("loop");
     assert_eq!(
         folder.names(),
-        ["amended.chain", "errors.toml", "report.html", "report.json", "residuals.csv"]
+        ["amended.chain", "errors.toml", "instrument.toml", "report.html", "report.json", "residuals.csv"]
     );
 
     // The encoder of the middle axis is off centre: a rotation of the middle body about x.

@@ -49,7 +49,8 @@ fn refused(run: &Run, why: &str) {
 
 const EVAL: &str = "eval shaft.chain --errors e.toml --data poses.csv --out";
 const CALIBRATE: &str = "calibrate study.toml --out";
-const FILES: [&str; 5] = ["amended.chain", "errors.toml", "report.html", "report.json", "residuals.csv"];
+const FILES: [&str; 6] =
+    ["amended.chain", "errors.toml", "instrument.toml", "report.html", "report.json", "residuals.csv"];
 
 #[test]
 fn the_files_of_a_calibration_appear_together_or_not_at_all() {
@@ -70,7 +71,15 @@ fn the_files_of_a_calibration_appear_together_or_not_at_all() {
     done(&words(&folder, &format!("{CALIBRATE} there")));
     assert_eq!(
         there.names(),
-        ["amended.chain", "errors.toml", "mine.txt", "report.html", "report.json", "residuals.csv"]
+        [
+            "amended.chain",
+            "errors.toml",
+            "instrument.toml",
+            "mine.txt",
+            "report.html",
+            "report.json",
+            "residuals.csv"
+        ]
     );
     assert_ne!(there.read("errors.toml"), "what stood there");
     assert_eq!(folder.names().len(), before.len() + 2);

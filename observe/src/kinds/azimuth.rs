@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use super::kind::{ANGLES, Kind};
 use super::residual::Part;
-use super::written::{Asked, Key, Observes, OfReadings, Written};
+use super::written::{Asked, Filled, Key, Observes, OfReadings, Shows, Written};
 use super::{Measure, Measured};
 
 pub(super) const KIND: Kind = Kind::new(&["azimuth"], ANGLES, Measure::Azimuth, &[AZIMUTH], |rows, to| {
@@ -22,7 +22,16 @@ const AZIMUTH: Written = Written {
     of_readings: OfReadings::TwoAngles,
     is_meant: is_alone,
     read: |cells| Ok(Measured::Azimuth { azimuth_rad: cells.at(0) }),
+    filled: Some(ROUND),
 };
+
+/// An azimuth, which goes round, and an elevation.
+pub(super) const ROUND: Filled = Filled { of: two_angles, beside_nominal: false, turns: true };
+
+fn two_angles(shows: &dyn Shows) -> [f64; 3] {
+    let [azimuth_rad, elevation_rad] = shows.angles(&shows.vector());
+    [azimuth_rad, elevation_rad, 0.0]
+}
 
 /// Whether a study that names the angles of a direction means the first alone.
 pub(super) fn is_alone(asked: &Asked<'_>) -> bool {

@@ -10,9 +10,9 @@ use super::azimuth;
 use super::compare::{Compared, Mismatch, Rows};
 use super::kind::{ANGLES, Kind, Map, Scale, SpaceAxes};
 use super::tangent_plane::on_tangent_plane;
-use super::written::{Cells, Key, Observes, OfReadings, UNIT_TOLERANCE, Written};
+use super::written::{Cells, Filled, Key, Observes, OfReadings, Shows, UNIT_TOLERANCE, Written};
 use super::{Measure, Measured};
-use crate::{direction_from_offset, tangent_frame};
+use crate::{direction_from_offset, offset_of_direction, tangent_frame};
 
 pub(super) const KIND: Kind = Kind {
     scale: |_| Scale::Unseen,
@@ -46,6 +46,7 @@ const DIRECTION: Written = Written {
         }
         Ok(Measured::Direction(vector / length))
     },
+    filled: Filled::with(|shows| shows.vector().normalize().into()),
 };
 
 const SPHERICAL: Written = Written {
@@ -65,6 +66,7 @@ const SPHERICAL: Written = Written {
     of_readings: OfReadings::TwoAngles,
     is_meant: |asked| !azimuth::is_alone(asked),
     read: spherical,
+    filled: Some(azimuth::ROUND),
 };
 
 const OFFSET: Written = Written {
@@ -87,7 +89,14 @@ const OFFSET: Written = Written {
         }
         Ok(Measured::Direction(direction_from_offset(&nominal, cells.at(0), cells.at(1))))
     },
+    filled: Some(Filled { of: offset, beside_nominal: true, turns: false }),
 };
+
+/// The offset of what is shown from what is shown without errors.
+fn offset(shows: &dyn Shows) -> [f64; 3] {
+    let [across_rad, along_rad] = offset_of_direction(&shows.nominal().normalize(), &shows.vector());
+    [across_rad, along_rad, 0.0]
+}
 
 fn spherical(cells: &mut dyn Cells) -> Result<Measured, String> {
     let (direction, elevation) = cells.direction(cells.at(0), cells.at(1));

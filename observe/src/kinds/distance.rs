@@ -43,4 +43,5 @@ const DISTANCE: Written = Written {
     of_readings: OfReadings::Nothing,
     is_meant: |_| true,
     read: length,
+    filled: None,
 };

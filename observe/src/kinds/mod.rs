@@ -36,7 +36,9 @@ pub use kind::{
 };
 pub use measured::Measured;
 pub use seeing::TurnsBy;
-pub use written::{Asked, Cells, Key, NAMES, Observes, OfReadings, UNIT_TOLERANCE, Written, headers, ways};
+pub use written::{
+    Asked, Cells, Filled, Key, NAMES, Observes, OfReadings, Shows, UNIT_TOLERANCE, Written, headers, ways,
+};
 
 macro_rules! table {
     ($($(#[$what:meta])* $measure:ident = $file:ident;)*) => {

@@ -30,6 +30,7 @@ const ORIENTATION: Written = Written {
     of_readings: OfReadings::Nothing,
     is_meant: |_| true,
     read: |cells| cells.orientation().map(Measured::Orientation),
+    filled: None,
 };
 
 fn compare(rows: &Rows<'_>, to: &mut Compared<'_>) -> Result<(), Mismatch> {

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use super::kind::{BaseShown, Kind, LENGTHS, Map, SpaceAxes};
 use super::residual::Part;
-use super::written::{Key, Observes, OfReadings, Written};
+use super::written::{Filled, Key, Observes, OfReadings, Written};
 use super::{Measure, Measured};
 
 pub(super) const KIND: Kind = Kind {
@@ -40,6 +40,7 @@ const POINT: Written = Written {
     of_readings: OfReadings::Nothing,
     is_meant: |_| true,
     read: |cells| Ok(Measured::Point(Vector3::new(cells.at(0), cells.at(1), cells.at(2)))),
+    filled: Filled::with(|shows| shows.vector().into()),
 };
 
 fn residual(measured: &Measured, predicted: &Vector3<f64>) -> Option<[Part; 3]> {

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use super::kind::{Kind, LENGTHS};
 use super::residual::Part;
-use super::written::{Key, Observes, OfReadings, Written};
+use super::written::{Filled, Key, Observes, OfReadings, Written};
 use super::{Measure, Measured};
 
 pub(super) const KIND: Kind = Kind {
@@ -32,6 +32,7 @@ const RANGE: Written = Written {
         }
         Ok(Measured::Range { range_m })
     },
+    filled: Filled::with(|shows| [shows.vector().norm(), 0.0, 0.0]),
 };
 
 fn residual(measured: &Measured, predicted: &Vector3<f64>) -> Option<[Part; 1]> {

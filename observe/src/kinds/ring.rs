@@ -30,4 +30,5 @@ const RING: Written = Written {
     of_readings: OfReadings::Nothing,
     is_meant: |asked| (asked.names)("radius"),
     read: length,
+    filled: None,
 };

@@ -45,6 +45,7 @@ const OF_WIRE: Written = Written {
     of_readings: OfReadings::Nothing,
     is_meant: |_| true,
     read: length,
+    filled: None,
 };
 
 /// The length read against |R p + t − a| − z.

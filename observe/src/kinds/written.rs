@@ -76,6 +76,36 @@ pub trait Cells {
     fn orientation(&mut self) -> Result<UnitQuaternion<f64>, String>;
 }
 
+/// What a chain shows in one row, as a kind writes it.
+pub trait Shows {
+    /// The vector of the observable.
+    fn vector(&self) -> Vector3<f64>;
+
+    /// The same without errors.
+    fn nominal(&self) -> Vector3<f64>;
+
+    /// The azimuth and the elevation (or what the observable counts for it) of a direction, rad.
+    fn angles(&self, direction: &Vector3<f64>) -> [f64; 2];
+}
+
+/// How the columns of a way are filled with what a chain shows.
+#[derive(Debug, Clone, Copy)]
+pub struct Filled {
+    /// The numbers, SI, in the order of the columns; those behind the last column mean nothing.
+    pub of: fn(&dyn Shows) -> [f64; 3],
+    /// Whether they depend on what is shown without errors.
+    pub beside_nominal: bool,
+    /// Whether the first is an angle that goes round.
+    pub turns: bool,
+}
+
+impl Filled {
+    /// With numbers of the vector alone, of which none goes round.
+    pub(super) const fn with(of: fn(&dyn Shows) -> [f64; 3]) -> Option<Self> {
+        Some(Self { of, beside_nominal: false, turns: false })
+    }
+}
+
 /// A way to write a kind in a study: `kind = "…"` and its columns.
 #[derive(Debug)]
 pub struct Written {
@@ -94,6 +124,8 @@ pub struct Written {
     pub is_meant: fn(&Asked<'_>) -> bool,
     /// Reads a row; an error says why it cannot be.
     pub read: fn(&mut dyn Cells) -> Result<Measured, String>,
+    /// How it is written of what a chain shows; `None` where its rows hold what a chain alone does not show.
+    pub filled: Option<Filled>,
 }
 
 impl Written {
@@ -107,6 +139,7 @@ impl Written {
             of_readings: OfReadings::Nothing,
             is_meant: |_| true,
             read: |_| Ok(Measured::Readings),
+            filled: None,
         }
     }
 

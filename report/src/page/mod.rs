@@ -30,7 +30,7 @@ pub const STYLE: &str = include_str!("style.css");
 #[must_use]
 pub fn page(reported: &Reported<'_>) -> String {
     let diagnosis = &reported.calibration.diagnosis;
-    let answers = words::answers(diagnosis, reported.folder);
+    let answers = words::answers(diagnosis, reported.folder, &reported.provenance.command);
     let rows = Rows::of(reported);
     let used = &diagnosis.observations;
     document(
@@ -70,7 +70,7 @@ pub fn page(reported: &Reported<'_>) -> String {
 #[must_use]
 pub fn excerpt(reported: &Reported<'_>) -> String {
     let diagnosis = &reported.calibration.diagnosis;
-    let answers = words::answers(diagnosis, reported.folder);
+    let answers = words::answers(diagnosis, reported.folder, &reported.provenance.command);
     let rows = Rows::of(reported);
     document(
         reported,

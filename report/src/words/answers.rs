@@ -50,9 +50,9 @@ pub struct Answers {
     pub next: Vec<Step>,
 }
 
-/// The answers to a diagnosis; `folder` is where its files are, if they were written.
+/// The answers to a diagnosis; `folder` is where its files are, if they were written, and `command` how it was asked for.
 #[must_use]
-pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>) -> Answers {
+pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) -> Answers {
     // Where something else explains a cause better, none beside it is an answer either: all were found without that.
     let rival = rival(diagnosis);
     let are_beaten = rival.as_ref().is_some_and(|rival| !rival.instead_of.is_empty());
@@ -95,7 +95,7 @@ pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>) -> Answers {
         causes,
         places: effects.iter().map(|effect| place(effect, diagnosis)).collect(),
         better: better(diagnosis),
-        next: steps(diagnosis, folder),
+        next: steps(diagnosis, folder, command),
     }
 }
 

@@ -10,8 +10,8 @@ use crate::shell::shell_word;
 use calibration::diagnose::few::WANTED;
 use calibration::diagnose::{Caution, Diagnosis, EffectFound, Ended, Relation, Verdict};
 
-/// What to do next, in order.
-pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
+/// What to do next, in order; `command` wrote the files into the folder, or would.
+pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) -> Vec<Step> {
     let step = |title: &str, text: String| Step { title: title.to_owned(), text, command: None };
     let mut steps = Vec::new();
     match diagnosis.verdict {
@@ -89,7 +89,7 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
             "These data show none of the declared errors: what would show them is what `identify` says of the study.".to_owned(),
         ));
     } else {
-        steps.push(correct(diagnosis, folder));
+        steps.push(correct(diagnosis, folder, command));
     }
     let largest = diagnosis.effects.iter().max_by(|a, b| a.standing.total_cmp(&b.standing));
     if let Some(effect) = largest.filter(|_| rival(diagnosis).is_none()) {
@@ -161,7 +161,7 @@ pub(super) fn is_unconfirmed(diagnosis: &Diagnosis) -> Option<String> {
     })
 }
 
-fn correct(diagnosis: &Diagnosis, folder: Option<&str>) -> Step {
+fn correct(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) -> Step {
     let competing = diagnosis
         .effects
         .iter()
@@ -191,14 +191,22 @@ fn correct(diagnosis: &Diagnosis, folder: Option<&str>) -> Step {
         ),
         false => ("Correct with it now", text),
     };
-    let folder = folder.unwrap_or("DIR").trim_end_matches('/');
-    let [chain, errors] = ["amended.chain", "errors.toml"].map(|file| format!("{folder}/{file}"));
-    let command = format!(
-        "trueaxis apply {} --errors {} --data new.csv --out corrected.csv",
-        shell_word(&chain),
-        shell_word(&errors)
-    );
+    let apply = |folder: &str| {
+        let instrument = format!("{}/instrument.toml", folder.trim_end_matches('/'));
+        format!("trueaxis apply {} --data new.csv --out corrected.csv", shell_word(&instrument))
+    };
+    let command = match (folder, calibrate(command)) {
+        (Some(folder), _) => apply(folder),
+        (None, Some(written)) => format!("{written} --out result\n{}", apply("result")),
+        (None, None) => apply("DIR"),
+    };
     Step { title: title.to_owned(), text: text.to_owned(), command: Some(command) }
+}
+
+/// The command that calibrates, from the command line of a run that wrote nothing; `None` where a program asked for it.
+fn calibrate(command: &str) -> Option<String> {
+    let (_, arguments) = command.split_once(' ')?;
+    arguments.starts_with("calibrate ").then(|| format!("trueaxis {arguments}"))
 }
 
 /// Poses that would tell causes apart, or that none would.

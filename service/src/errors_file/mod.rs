@@ -19,9 +19,10 @@ use crate::source::Source;
 use crate::warn::Warn;
 
 pub use written::{errors, found_over as found_over_of};
+pub(crate) use written::{key, lines_of, ranges_of_readings, written_value};
 
 /// Names as written, with their quantities, each with its place.
-type Entries = BTreeMap<Spanned<String>, Spanned<Amount>>;
+pub(crate) type Entries = BTreeMap<Spanned<String>, Spanned<Amount>>;
 
 /// The table of the ranges that a calibration was found over. No symbol of a chain has a name with a hyphen.
 pub const FOUND_OVER: &str = "found-over";
@@ -29,7 +30,7 @@ pub const FOUND_OVER: &str = "found-over";
 /// What stands behind a key.
 enum Entry {
     Amount(Amount),
-    Ranges(BTreeMap<Spanned<String>, Spanned<[Amount; 2]>>),
+    Ranges(Ranges),
 }
 
 impl<'de> Deserialize<'de> for Entry {
@@ -73,21 +74,56 @@ pub struct FoundOver {
     pub high: f64,
 }
 
-/// The ranges that the file says a calibration was found over; none if it says nothing of them.
-///
-/// # Errors
-/// A name that is no joint or input of the chain, or a range that is none; each with its place.
-pub fn found_over(source: &Source, chain: &Chain) -> Result<Vec<FoundOver>, Refusal> {
-    let entries: BTreeMap<Spanned<String>, Spanned<Entry>> = source.toml()?;
-    let mut found = Vec::new();
-    for (name, entry) in &entries {
-        let Entry::Ranges(ranges) = entry.get_ref() else { continue };
-        if name.get_ref() != FOUND_OVER {
-            let message = format!("`{}` is a table, and errors have values", name.get_ref());
-            let help = format!("write a quantity; the one table here is [{FOUND_OVER}]");
-            return Err(source.mistake(Mistake::new(name.span(), message).with_help(help)));
+/// The ranges of readings by names, each with its place.
+pub(crate) type Ranges = BTreeMap<Spanned<String>, Spanned<[Amount; 2]>>;
+
+/// What a file says of errors, as it is written: a file of its own, or a part of an instrument file.
+pub(crate) struct Given<'s> {
+    /// The text that all places are in.
+    pub source: &'s Source,
+    /// Values, or sizes.
+    pub amounts: Entries,
+    /// What it was found over.
+    pub ranges: Ranges,
+}
+
+impl<'s> Given<'s> {
+    /// A file of errors.
+    pub fn of(source: &'s Source) -> Result<Self, Refusal> {
+        let is_chain = |line: &str| {
+            line.strip_prefix("chain").is_some_and(|behind| behind.trim_start().starts_with('='))
+        };
+        // An error may be called as the first key of an instrument file is.
+        if source.is_instrument() && source.text.lines().any(is_chain) {
+            return Err(Refusal::Input(format!(
+                "`{}` is an instrument file: give it in place of the declaration, and leave the file of errors out",
+                source.path.display()
+            )));
         }
-        for (name, range) in ranges {
+        let all: BTreeMap<Spanned<String>, Spanned<Entry>> = source.toml()?;
+        let mut given = Self { source, amounts: Entries::new(), ranges: Ranges::new() };
+        for (name, entry) in all {
+            let place = entry.span();
+            match entry.into_inner() {
+                Entry::Amount(amount) => {
+                    given.amounts.insert(name, Spanned::new(place, amount));
+                }
+                Entry::Ranges(ranges) if name.get_ref() == FOUND_OVER => given.ranges = ranges,
+                Entry::Ranges(_) => {
+                    let message = format!("`{}` is a table, and errors have values", name.get_ref());
+                    let help = format!("write a quantity; the one table here is [{FOUND_OVER}]");
+                    return Err(source.mistake(Mistake::new(name.span(), message).with_help(help)));
+                }
+            }
+        }
+        Ok(given)
+    }
+
+    /// The ranges in SI.
+    pub fn found_over(&self, chain: &Chain) -> Result<Vec<FoundOver>, Refusal> {
+        let source = self.source;
+        let mut found = Vec::new();
+        for (name, range) in &self.ranges {
             let movable = || chain.symbols_of(SymbolKind::Joint).chain(chain.symbols_of(SymbolKind::Input));
             let Some(symbol) = movable().find(|&id| chain.symbol(id).name == *name.get_ref()) else {
                 let message = format!("chain {} has no joint or input `{}`", chain.name, name.get_ref());
@@ -108,12 +144,56 @@ pub fn found_over(source: &Source, chain: &Chain) -> Result<Vec<FoundOver>, Refu
             }
             found.push(FoundOver { symbol, low, high });
         }
+        Ok(found)
     }
-    Ok(found)
+
+    /// What is set of symbols of these kinds. A plain name wins over a pattern, and a pattern with more letters over one with fewer.
+    pub fn settings(&self, chain: &Chain, kinds: &[SymbolKind], warn: Warn<'_>) -> Result<Settings, Refusal> {
+        let (source, entries) = (self.source, &self.amounts);
+        // What it was found over is read with everything else, so that no command takes a file that another refuses.
+        self.found_over(chain)?;
+        let mut ranked: Vec<_> =
+            entries.iter().map(|(name, amount)| (rank(name.get_ref()), name, amount)).collect();
+        ranked.sort_by_key(|&(rank, ..)| rank);
+        let mut settings = Settings::new();
+        let mut set_by: BTreeMap<SymbolId, (usize, &str)> = BTreeMap::new();
+        let mut winners = BTreeMap::new();
+        for (rank, name, amount) in ranked {
+            for id in named(source, chain, kinds, name)? {
+                let symbol = chain.symbol(id);
+                if let Some((_, other)) =
+                    set_by.insert(id, (rank, name.get_ref())).filter(|&(other, _)| other == rank)
+                {
+                    let message = format!("`{}` and `{other}` both set `{}`", name.get_ref(), symbol.name);
+                    let help = format!("write `{} = …` as well: a plain name wins", symbol.name);
+                    return Err(source.mistake(Mistake::new(name.span(), message).with_help(help)));
+                }
+                winners.insert(id, amount);
+            }
+        }
+        // What is overruled need not fit: `"*" = "10 arcsec"` beside a plain name for a length.
+        for (id, amount) in winners {
+            let symbol = chain.symbol(id);
+            let value = amount.get_ref().to_si(symbol.quantity).map_err(|why| {
+                source.mistake(Mistake::new(amount.span(), format!("{}: {why}", symbol.name)))
+            })?;
+            settings.insert(id, (value, amount.span()));
+        }
+        warn_of_missing_units(chain, entries, &settings, warn);
+        Ok(settings)
+    }
+}
+
+/// The ranges that the file says a calibration was found over; none if it says nothing of them.
+///
+/// # Errors
+/// A name that is no joint or input of the chain, or a range that is none; each with its place.
+pub fn found_over(source: &Source, chain: &Chain) -> Result<Vec<FoundOver>, Refusal> {
+    Given::of(source)?.found_over(chain)
 }
 
 /// What the file sets: values in SI, each with the place of its quantity.
-type Settings = BTreeMap<SymbolId, (f64, Range<usize>)>;
+pub(crate) type Settings = BTreeMap<SymbolId, (f64, Range<usize>)>;
 
 /// The values of all symbols in SI, indexed by [`SymbolId`]: constants at their nominal value unless the file
 /// sets them (a calibration may have freed them), errors at the file's value or zero.
@@ -123,7 +203,7 @@ type Settings = BTreeMap<SymbolId, (f64, Range<usize>)>;
 /// read or that has another unit; each with its place.
 pub fn values(source: &Source, chain: &Chain, warn: Warn<'_>) -> Result<Vec<f64>, Refusal> {
     let mut values = chain.nominal_values();
-    for (id, (value, _)) in read(source, chain, &[SymbolKind::Error, SymbolKind::Constant], warn)? {
+    for (id, value) in named_values(source, chain, warn)? {
         values[id.index()] = value;
     }
     Ok(values)
@@ -134,7 +214,7 @@ pub fn values(source: &Source, chain: &Chain, warn: Warn<'_>) -> Result<Vec<f64>
 /// # Errors
 /// As [`values`].
 pub fn named_values(source: &Source, chain: &Chain, warn: Warn<'_>) -> Result<Vec<(SymbolId, f64)>, Refusal> {
-    let named = read(source, chain, &[SymbolKind::Error, SymbolKind::Constant], warn)?;
+    let named = Given::of(source)?.settings(chain, &[SymbolKind::Error, SymbolKind::Constant], warn)?;
     Ok(named.into_iter().map(|(id, (value, _))| (id, value)).collect())
 }
 
@@ -144,7 +224,7 @@ pub fn named_values(source: &Source, chain: &Chain, warn: Warn<'_>) -> Result<Ve
 /// As [`values`], and a negative size.
 pub fn largest_sizes(source: &Source, chain: &Chain, warn: Warn<'_>) -> Result<Vec<f64>, Refusal> {
     let mut sizes = vec![0.0; chain.symbols.len()];
-    for (id, (size, place)) in read(source, chain, &[SymbolKind::Error], warn)? {
+    for (id, (size, place)) in Given::of(source)?.settings(chain, &[SymbolKind::Error], warn)? {
         if size < 0.0 {
             let mistake = Mistake::new(place, "a largest size cannot be negative");
             return Err(source.mistake(mistake.with_help("write its absolute value")));
@@ -152,51 +232,6 @@ pub fn largest_sizes(source: &Source, chain: &Chain, warn: Warn<'_>) -> Result<V
         sizes[id.index()] = size;
     }
     Ok(sizes)
-}
-
-/// A plain name wins over a pattern, and a pattern with more letters over one with fewer.
-fn read(source: &Source, chain: &Chain, kinds: &[SymbolKind], warn: Warn<'_>) -> Result<Settings, Refusal> {
-    // What it was found over is read with everything else, so that no command takes a file that another refuses.
-    found_over(source, chain)?;
-    let all: BTreeMap<Spanned<String>, Spanned<Entry>> = source.toml()?;
-    let amount = |(name, entry): (Spanned<String>, Spanned<Entry>)| {
-        let place = entry.span();
-        match entry.into_inner() {
-            Entry::Amount(amount) => Some((name, Spanned::new(place, amount))),
-            Entry::Ranges(_) => None,
-        }
-    };
-    let entries: Entries = all.into_iter().filter_map(amount).collect();
-    let mut ranked: Vec<_> =
-        entries.iter().map(|(name, amount)| (rank(name.get_ref()), name, amount)).collect();
-    ranked.sort_by_key(|&(rank, ..)| rank);
-    let mut settings = Settings::new();
-    let mut set_by: BTreeMap<SymbolId, (usize, &str)> = BTreeMap::new();
-    let mut winners = BTreeMap::new();
-    for (rank, name, amount) in ranked {
-        for id in named(source, chain, kinds, name)? {
-            let symbol = chain.symbol(id);
-            if let Some((_, other)) =
-                set_by.insert(id, (rank, name.get_ref())).filter(|&(other, _)| other == rank)
-            {
-                let message = format!("`{}` and `{other}` both set `{}`", name.get_ref(), symbol.name);
-                let help = format!("write `{} = …` as well: a plain name wins", symbol.name);
-                return Err(source.mistake(Mistake::new(name.span(), message).with_help(help)));
-            }
-            winners.insert(id, amount);
-        }
-    }
-    // What is overruled need not fit: `"*" = "10 arcsec"` beside a plain name for a length.
-    for (id, amount) in winners {
-        let symbol = chain.symbol(id);
-        let value = amount
-            .get_ref()
-            .to_si(symbol.quantity)
-            .map_err(|why| source.mistake(Mistake::new(amount.span(), format!("{}: {why}", symbol.name))))?;
-        settings.insert(id, (value, amount.span()));
-    }
-    warn_of_missing_units(chain, &entries, &settings, warn);
-    Ok(settings)
 }
 
 /// How much a name says: more letters beside its stars say more, and a plain name says everything.
@@ -229,10 +264,12 @@ fn named(
     name: &Spanned<String>,
 ) -> Result<Vec<SymbolId>, Refusal> {
     let text = name.get_ref().as_str();
+    // Where errors may stand, constants may beside them.
+    let wanted = if kinds.contains(&SymbolKind::Error) { SymbolKind::Error } else { SymbolKind::Constant };
     let wrong = |message: String, help: String| {
         Err(source.mistake(Mistake::new(name.span(), message).with_help(help)))
     };
-    if names::is_pattern(text) {
+    if kinds.contains(&SymbolKind::Error) && names::is_pattern(text) {
         let errors = chain.symbols_of(SymbolKind::Error);
         let matching: Vec<SymbolId> =
             errors.filter(|&id| names::matches(text, &chain.symbol(id).name)).collect();
@@ -245,19 +282,28 @@ fn named(
     match chain.find_symbol(text) {
         Some(id) if kinds.contains(&chain.symbol(id).kind) => Ok(vec![id]),
         Some(id) => {
-            let message = format!("`{text}` is {}, not an error", kind_in_words(chain.symbol(id).kind));
-            wrong(message, "name errors of the chain here".to_owned())
+            let message = format!(
+                "`{text}` is {}, not {}",
+                kind_in_words(chain.symbol(id).kind),
+                kind_in_words(wanted)
+            );
+            wrong(message, format!("name {}s of the chain here", word(wanted)))
         }
         None => {
             let settable = kinds.iter().flat_map(|&kind| chain.symbols_of(kind));
             let near = names::nearest(text, settable.map(|id| chain.symbol(id).name.as_str()));
             let help = near.map_or_else(
-                || format!("`trueaxis derive` shows the errors of {}", chain.name),
+                || format!("`trueaxis derive` shows the {}s of {}", word(wanted), chain.name),
                 |near| format!("did you mean `{near}`?"),
             );
-            wrong(format!("chain {} has no error `{text}`", chain.name), help)
+            wrong(format!("chain {} has no {} `{text}`", chain.name, word(wanted)), help)
         }
     }
+}
+
+/// The same without its article.
+fn word(kind: SymbolKind) -> &'static str {
+    kind_in_words(kind).split_once(' ').map_or("", |(_, word)| word)
 }
 
 /// A kind of symbol as a sentence names it.

@@ -42,35 +42,46 @@ fn errors_toml(
     date: &str,
     over: &[FoundOver],
 ) -> String {
-    let mut text = format!(
+    let title = format!(
         "# Errors of {}, calibrated on {date}; for `trueaxis eval`, `trueaxis apply` and amended.chain.\n",
         chain.name
     );
+    let lines = lines(found, chain, values).into_iter().map(|(_, line)| line);
+    std::iter::once(title).chain(lines).collect::<String>() + &ranges_of_readings(chain, over)
+}
+
+/// The lines of a usable model, each with what its symbol is.
+pub(crate) fn lines_of(reported: &Reported<'_>) -> Vec<(SymbolKind, String)> {
+    let calibration = reported.calibration;
+    lines(&calibration.diagnosis.errors, &calibration.chain, &calibration.after.values)
+}
+
+fn lines(found: &[ErrorFound], chain: &Chain, values: &[f64]) -> Vec<(SymbolKind, String)> {
     let width = found.iter().map(|error| key(&error.name).chars().count()).max().unwrap_or_default();
+    let mut lines = Vec::new();
     for error in found {
+        let symbol = chain.find_symbol(&error.name).map(|id| chain.symbol(id));
         // The unit is that of the language's quantity, which is what reads the file again.
-        let quantity =
-            chain.find_symbol(&error.name).map_or(Quantity::Number, |id| chain.symbol(id).quantity);
-        let _ = writeln!(
-            text,
-            "{:width$} = {:32} # {}",
-            key(&error.name),
-            written(error.value, quantity),
-            remark(error)
-        );
+        let quantity = symbol.map_or(Quantity::Number, |symbol| symbol.quantity);
+        let value = written_value(error.value, quantity);
+        let line = format!("{:width$} = {value:32} # {}\n", key(&error.name), remark(error));
+        lines.push((symbol.map_or(SymbolKind::Error, |symbol| symbol.kind), line));
     }
     // Errors that were held at a value belong to the model as much as those that were estimated.
     for (symbol, &value) in chain.symbols.iter().zip(values) {
         let estimated = found.iter().any(|error| error.name == symbol.name);
         if symbol.kind == SymbolKind::Error && value != 0.0 && !estimated {
-            let _ = writeln!(
-                text,
-                "{:width$} = {:32} # held at this value",
-                key(&symbol.name),
-                written(value, symbol.quantity)
-            );
+            let value = written_value(value, symbol.quantity);
+            let line = format!("{:width$} = {value:32} # held at this value\n", key(&symbol.name));
+            lines.push((symbol.kind, line));
         }
     }
+    lines
+}
+
+/// The table of the ranges of the readings; empty where there are none.
+pub(crate) fn ranges_of_readings(chain: &Chain, over: &[FoundOver]) -> String {
+    let mut text = String::new();
     if !over.is_empty() {
         let _ = writeln!(
             text,
@@ -79,7 +90,7 @@ fn errors_toml(
     }
     for range in over {
         let symbol = chain.symbol(range.symbol);
-        let [low, high] = [range.low, range.high].map(|bound| written(bound, symbol.quantity));
+        let [low, high] = [range.low, range.high].map(|bound| written_value(bound, symbol.quantity));
         let _ = writeln!(text, "{} = [{low}, {high}]", key(&symbol.name));
     }
     text
@@ -101,7 +112,7 @@ fn ranges_of(observations: &Observations, weight: &[f64]) -> Vec<FoundOver> {
 }
 
 /// A name as a key of TOML: quoted where it has letters that a bare key cannot have.
-fn key(name: &str) -> String {
+pub(crate) fn key(name: &str) -> String {
     if name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_') {
         name.to_owned()
     } else {
@@ -110,7 +121,7 @@ fn key(name: &str) -> String {
 }
 
 /// A value as TOML has it: a number, or a string with a unit.
-fn written(value: f64, quantity: Quantity) -> String {
+pub(crate) fn written_value(value: f64, quantity: Quantity) -> String {
     match quantity {
         Quantity::Number => format!("{value:?}"),
         quantity => format!("\"{value:?} {}\"", quantity.unit()),

@@ -54,6 +54,18 @@ pub enum Cells {
     Kept(Kept),
 }
 
+impl Cells {
+    /// Appends cells of the same column of the same file, read in the same way.
+    pub fn append(&mut self, more: Self) {
+        match (self, more) {
+            (Self::Numbers(own), Self::Numbers(more)) => own.extend(more),
+            (Self::Labels(own), Self::Labels(more)) => own.extend(more),
+            (Self::Kept(own), Self::Kept(more)) => own.append(more),
+            _ => unreachable!("the parts of one file hold a column in one way"),
+        }
+    }
+}
+
 /// A column that no command computes: it leaves as it came.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Kept {
@@ -132,14 +144,7 @@ pub struct Chunk {
 impl Chunk {
     /// Appends rows that were counted as if they began their file, in which so many rows and lines come before them.
     fn append_part(&mut self, part: Self, rows: u64, lines: u64) {
-        for (own, more) in self.columns.iter_mut().zip(part.columns) {
-            match (own, more) {
-                (Cells::Numbers(own), Cells::Numbers(more)) => own.extend(more),
-                (Cells::Labels(own), Cells::Labels(more)) => own.extend(more),
-                (Cells::Kept(own), Cells::Kept(more)) => own.append(more),
-                _ => unreachable!("the parts of one file hold a column in one way"),
-            }
-        }
+        self.columns.iter_mut().zip(part.columns).for_each(|(own, more)| own.append(more));
         self.rows.extend(part.rows.iter().map(|row| rows + row));
         self.lines.extend(part.lines.iter().map(|line| lines + line));
     }

@@ -1,17 +1,21 @@
 //! Tables that commands read: the readings of joints and inputs as numbers, and every column as it came.
 
+mod headed;
+#[cfg(feature = "parquet")]
+mod types;
+
 use model_core::names::listed;
 use model_core::unit::Measures;
 use model_core::{Chain, ObservableId, Quantity, Symbol, SymbolId};
-#[cfg(feature = "parquet")]
-use rayon::prelude::*;
-#[cfg(feature = "parquet")]
-use tables::formats::parquet::TextType;
 use tables::formats::{
     Cells, ColumnName, DataError, Extent, Form, Kept, ReadAs, TableReader, Wanted, declared_columns,
     find_reading,
 };
 use tables::units::{BareColumn, Plausible};
+
+use headed::{Beside, Headed};
+use observe::Derived;
+use study::{ColumnAt, Conversion, Headings, Need};
 
 use crate::evaluation::readings_of;
 use crate::refusal::Refusal;
@@ -19,10 +23,6 @@ use crate::source;
 
 /// Rows that are read, computed and written at a time.
 const CHUNK: usize = 1 << 16;
-
-/// Bytes of a file up to which its texts are held until the last is known.
-#[cfg(feature = "parquet")]
-const HELD: u64 = 1 << 26;
 
 /// Opens a table again from its start, and says how far it has been read.
 #[cfg(feature = "parquet")]
@@ -33,9 +33,17 @@ pub struct ReadingsTable<'t> {
     reader: Box<dyn TableReader + 't>,
     /// Names that a column can have beside that of a reading.
     declared: Vec<String>,
+    /// The headings of a study by which columns are found, in place of the names.
+    headed: Option<Headed>,
     readings: Vec<Reading>,
+    /// Joints and inputs that follow from other columns.
+    followed: Vec<SymbolId>,
+    /// The joints and inputs that were asked for.
+    asked: Vec<SymbolId>,
     /// Every column as it came, if they are kept, then the readings as numbers.
     wanted: Vec<Wanted>,
+    /// What each of them is for.
+    uses: Vec<Use>,
     /// Whether a row has been read.
     started: bool,
     /// How far a file has been read; none of what is no regular file.
@@ -45,11 +53,28 @@ pub struct ReadingsTable<'t> {
     again: Option<Box<Again>>,
 }
 
+/// What a column that is wanted is for.
+#[derive(Debug, Clone, PartialEq)]
+enum Use {
+    /// It leaves as it came.
+    Kept,
+    /// The reading of this place among them.
+    Reading(usize),
+    /// Plain numbers of this name, from which others follow.
+    Numbers(String),
+    /// It says the order of the rows.
+    Order,
+    /// Whoever asked for it.
+    Other,
+}
+
 /// Where the readings of a joint or input come from.
 struct Reading {
     symbol: SymbolId,
     /// Index of its column in the header.
     column: usize,
+    /// How its numbers become readings.
+    conversion: Conversion,
     /// What is watched where nothing says its unit.
     bare: Option<BareColumn>,
 }
@@ -82,8 +107,12 @@ impl<'t> ReadingsTable<'t> {
         Self {
             reader,
             declared,
+            headed: None,
             readings: Vec::new(),
+            followed: Vec::new(),
+            asked: Vec::new(),
             wanted: Vec::new(),
+            uses: Vec::new(),
             started: false,
             extent: None,
             #[cfg(feature = "parquet")]
@@ -96,7 +125,23 @@ impl<'t> ReadingsTable<'t> {
     pub fn keeping_all(mut self) -> Self {
         let all = 0..self.header().len();
         self.wanted = all.map(|column| Wanted { column, form: Form::Kept }).collect();
+        self.uses = self.wanted.iter().map(|_| Use::Kept).collect();
         self
+    }
+
+    /// The same of a file with the headings of a study, of which it is like the source of one of the `named` observables, or of any. Comes
+    /// before anything is wanted but what is kept.
+    #[must_use]
+    pub fn headed_by(mut self, headings: &Headings, named: &[ObservableId]) -> Self {
+        let headed = Headed::of(headings.clone(), named, self.header(), &self.declared());
+        self.headed = Some(headed);
+        self
+    }
+
+    /// Of which source of the study that it is headed by it is like.
+    #[must_use]
+    pub fn source_of_study(&self) -> Option<usize> {
+        self.headed.as_ref().map(|headed| headed.source)
     }
 
     /// The same of a file, whose extent says how far it has been read.
@@ -112,48 +157,6 @@ impl<'t> ReadingsTable<'t> {
     pub fn opened_by(mut self, again: Box<Again>) -> Self {
         self.again = Some(again);
         self
-    }
-
-    /// What the texts of each column are that is kept as it came, from reading the whole file once before, of which `tell` hears: with that, a large
-    /// table with types of its own is written as it is read. None where it is no such file, or has types itself.
-    ///
-    /// # Errors
-    /// The file cannot be read.
-    #[cfg(feature = "parquet")]
-    pub fn text_types(&self, tell: impl Fn(f64)) -> Result<Option<Vec<TextType>>, Refusal> {
-        let Some(again) = &self.again else { return Ok(None) };
-        if self.extent.as_ref().is_none_or(|extent| extent.length() <= HELD) {
-            return Ok(None);
-        }
-        let (reader, extent) = again()?;
-        let is_kept = |wanted: &&Wanted| matches!(wanted.form, Form::Kept);
-        let wanted: Vec<Wanted> = self.wanted.iter().filter(is_kept).copied().collect();
-        let readings = self.readings.iter();
-        let readings = readings.map(|own| Reading { symbol: own.symbol, column: own.column, bare: None });
-        let mut scanned = Self {
-            reader,
-            declared: self.declared.clone(),
-            readings: readings.collect(),
-            started: false,
-            extent,
-            again: None,
-            wanted,
-        };
-        let mut types = vec![TextType::default(); scanned.wanted.len()];
-        while let Some(rows) = scanned.next_rows()? {
-            if let Some(share) = scanned.share_read() {
-                tell(share);
-            }
-            if rows.kept.iter().any(|kept| matches!(kept, Kept::Typed(_))) {
-                return Ok(None);
-            }
-            types.par_iter_mut().zip(&rows.kept).for_each(|(seen, kept)| {
-                if let Kept::Texts(texts) = kept {
-                    seen.see(texts);
-                }
-            });
-        }
-        Ok(Some(types))
     }
 
     /// The share of the file that has been read, where that is known.
@@ -185,7 +188,10 @@ impl<'t> ReadingsTable<'t> {
         // A unit in brackets is not part of the name.
         let bare = |name: &str| name.split(" [").next().map(str::to_owned);
         let named: Vec<String> = added.iter().filter_map(|name| bare(name)).collect();
-        self.header().iter().map(|column| named.iter().any(|name| self.means(column, name))).collect()
+        let is_named = |column: &ColumnName| {
+            added.contains(&column.full) || named.iter().any(|name| self.means(column, name))
+        };
+        self.header().iter().map(is_named).collect()
     }
 
     /// The names of some columns.
@@ -204,8 +210,8 @@ impl<'t> ReadingsTable<'t> {
     /// Whether there is a column, or more, for each of these joints and inputs.
     #[must_use]
     pub fn has(&self, chain: &Chain, readings: &[SymbolId]) -> bool {
-        let missing = |&id: &SymbolId| matches!(self.find(chain, id), Err(DataError::MissingColumn { .. }));
-        !readings.iter().any(missing)
+        let missing = |need: Need| matches!(self.find(chain, &need), Err(DataError::MissingColumn { .. }));
+        !readings.iter().flat_map(|id| self.needs(*id)).any(missing)
     }
 
     /// The observables of these names; if there is none, all that the table has the readings for.
@@ -227,26 +233,72 @@ impl<'t> ReadingsTable<'t> {
         self.declared.iter().map(String::as_str).collect()
     }
 
-    fn find(&self, chain: &Chain, reading: SymbolId) -> Result<usize, DataError> {
-        let name = &chain.symbol(reading).name;
-        find_reading(self.reader.header(), name, &self.declared(), self.reader.source())
+    /// From what the values of a joint or input come.
+    fn needs(&self, reading: SymbolId) -> Vec<Need> {
+        self.headed.as_ref().map_or_else(|| vec![Need::Reading(reading)], |headed| headed.needs(reading))
     }
 
-    /// Finds the columns of joints and inputs by their declared names; an angle or length without a unit in the
-    /// header is in SI, as the command itself writes it.
+    /// Finds a column by the headings of a study, else by the declared name of a joint or input; an angle or length without a unit in the
+    /// header is in SI then, as the command itself writes it.
+    fn find(&self, chain: &Chain, need: &Need) -> Result<ColumnAt, DataError> {
+        let (header, source) = (self.reader.header(), self.reader.source());
+        let declared = self.declared();
+        if let Some(found) = self.headed.as_ref().and_then(|own| own.find(need, (header, source), &declared))
+        {
+            return found;
+        }
+        let Need::Reading(reading) = need else { unreachable!("only a study names other columns: {need:?}") };
+        let symbol = chain.symbol(*reading);
+        let at = find_reading(header, &symbol.name, &declared, source)?;
+        let (factor, is_bare) = factor_of(&header[at], symbol, source)?;
+        Ok(ColumnAt { at, factor, is_bare, conversion: Conversion::NONE })
+    }
+
+    /// Finds the columns of joints and inputs.
     ///
     /// # Errors
     /// A column that is not there or is there twice, or whose unit is none or measures something else.
     pub fn want(&mut self, chain: &Chain, readings: &[SymbolId]) -> Result<(), Refusal> {
+        self.asked.extend(readings);
         for &id in readings {
-            let (column, source) = (self.find(chain, id).map_err(Refusal::of)?, self.reader.source());
-            let (name, symbol) = (&self.reader.header()[column], chain.symbol(id));
-            let (factor, is_bare) = factor_of(name, symbol, source).map_err(Refusal::of)?;
-            let plausible = Plausible::readings(chain, id);
-            let bare = || BareColumn::new(plausible, symbol.quantity, &name.full, source);
-            let bare = is_bare.then(bare);
-            self.readings.push(Reading { symbol: id, column, bare });
-            self.wanted.push(Wanted { column, form: Form::Number(factor) });
+            if self.headed.as_ref().is_some_and(|headed| headed.derived(id).is_some()) {
+                self.followed.push(id);
+            }
+            for need in self.needs(id) {
+                self.want_one(chain, need)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn want_one(&mut self, chain: &Chain, need: Need) -> Result<(), Refusal> {
+        let found = self.find(chain, &need).map_err(Refusal::of)?;
+        let (column, form) = (found.at, Form::Number(found.factor));
+        let (form, own) = match need {
+            Need::Reading(symbol) if self.readings.iter().any(|own| own.symbol == symbol) => return Ok(()),
+            Need::Reading(symbol) => {
+                let declared = chain.symbol(symbol);
+                let source = self.reader.source();
+                if found.conversion.shift != 0 {
+                    return Err(Refusal::Input(format!(
+                        "{source}: the study takes each reading of `{}` from another row (`shift`): move the column in this file, and leave \
+                         `shift` out of the instrument file",
+                        declared.name
+                    )));
+                }
+                let name = &self.reader.header()[column].full;
+                let bare =
+                    || BareColumn::new(Plausible::readings(chain, symbol), declared.quantity, name, source);
+                let bare = found.is_bare.then(bare);
+                self.readings.push(Reading { symbol, column, conversion: found.conversion, bare });
+                (form, Use::Reading(self.readings.len() - 1))
+            }
+            Need::Numbers(name) => (form, Use::Numbers(name)),
+            Need::Order(_) => (Form::Label, Use::Order),
+        };
+        if matches!(own, Use::Reading(_)) || !self.uses.contains(&own) {
+            self.wanted.push(Wanted { column, form });
+            self.uses.push(own);
         }
         Ok(())
     }
@@ -262,6 +314,7 @@ impl<'t> ReadingsTable<'t> {
         let read = ReadAs { measures: quantity.into(), stated: None, declared: Some(name) };
         let factor = self.reader.header()[column].factor(read, source).map_err(Refusal::of)?;
         self.wanted.push(Wanted { column, form: Form::Number(factor) });
+        self.uses.push(Use::Other);
         Ok(())
     }
 
@@ -284,29 +337,35 @@ impl<'t> ReadingsTable<'t> {
     /// # Errors
     /// A cell that cannot be read, with its place; no rows at all.
     pub fn next_rows(&mut self) -> Result<Option<Rows>, Refusal> {
-        let chunk = self.reader.read(&self.wanted, CHUNK).map_err(Refusal::of)?;
-        if chunk.rows.is_empty() {
+        let Some((cells, count)) = self.read()? else {
             let file = self.reader.source().to_owned();
             return if self.started { Ok(None) } else { Err(Refusal::of(DataError::NoRows { file })) };
-        }
+        };
         self.started = true;
-        let mut rows =
-            Rows { kept: Vec::new(), readings: Vec::new(), others: Vec::new(), count: chunk.rows.len() };
-        let mut readings = self.readings.iter_mut();
-        for column in chunk.columns {
-            match column {
-                Cells::Kept(kept) => rows.kept.push(kept),
-                Cells::Numbers(numbers) => {
-                    // Those of the readings come first.
-                    let Some(reading) = readings.next() else {
-                        rows.others.push(numbers);
-                        continue;
-                    };
+        let mut rows = Rows { kept: Vec::new(), readings: Vec::new(), others: Vec::new(), count };
+        let mut beside = Beside::default();
+        for (column, own) in cells.into_iter().zip(&self.uses) {
+            match (column, own) {
+                (Cells::Kept(kept), _) => rows.kept.push(kept),
+                (Cells::Labels(labels), _) => beside.order = Some(labels),
+                (Cells::Numbers(mut numbers), Use::Reading(at)) => {
+                    let reading = &mut self.readings[*at];
                     reading.bare.iter_mut().for_each(|bare| bare.see(&numbers));
+                    if reading.conversion != Conversion::NONE {
+                        numbers.iter_mut().for_each(|number| *number = reading.conversion.value(*number));
+                    }
                     rows.readings.push((reading.symbol, numbers));
                 }
-                Cells::Labels(_) => unreachable!("no labels are wanted"),
+                (Cells::Numbers(numbers), Use::Numbers(name)) => beside.numbers.push((name.clone(), numbers)),
+                (Cells::Numbers(numbers), _) => rows.others.push(numbers),
             }
+        }
+        if let Some(headed) = &self.headed {
+            let file = self.reader.source();
+            let followed = headed.follow(&self.followed, &rows.readings, &beside, file);
+            rows.readings.extend(followed.map_err(Refusal::of)?);
+            // Some were read because others follow from them.
+            rows.readings.retain(|(id, _)| self.asked.contains(id));
         }
         for reading in &self.readings {
             // What was read as a number with a decimal comma is no number between commas.
@@ -317,6 +376,29 @@ impl<'t> ReadingsTable<'t> {
             }
         }
         Ok(Some(rows))
+    }
+
+    /// The cells of the next rows, and how many these are; of all rows where some follow from those before them.
+    fn read(&mut self) -> Result<Option<(Vec<Cells>, usize)>, Refusal> {
+        let follows = |id: &SymbolId| {
+            let derived = self.headed.as_ref().and_then(|headed| headed.derived(*id));
+            derived.is_some_and(Derived::follows_rows)
+        };
+        let mut is_left = self.followed.iter().any(follows);
+        let chunk = self.reader.read(&self.wanted, CHUNK).map_err(Refusal::of)?;
+        if chunk.rows.is_empty() {
+            return Ok(None);
+        }
+        let (mut cells, mut count) = (chunk.columns, chunk.rows.len());
+        while is_left {
+            let chunk = self.reader.read(&self.wanted, CHUNK).map_err(Refusal::of)?;
+            is_left = !chunk.rows.is_empty();
+            if is_left {
+                count += chunk.rows.len();
+                cells.iter_mut().zip(chunk.columns).for_each(|(all, more)| all.append(more));
+            }
+        }
+        Ok(Some((cells, count)))
     }
 
     /// The columns whose numbers, as far as they were read, are hardly in SI, although nothing says another unit.

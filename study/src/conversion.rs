@@ -199,6 +199,12 @@ mod tests {
         let (angle_rad, _) = Notation::Hours.unpack(123_456.7);
         let hours = 12.0 + 34.0 / 60.0 + 56.7 / 3600.0;
         approx::assert_abs_diff_eq!(angle_rad.to_degrees(), 15.0 * hours, epsilon = 1e-10);
+        assert!(!Notation::Degrees.unpack(10.755).1);
+        assert!(!Notation::Degrees.unpack(10.1575).1);
+    }
+
+    #[test]
+    fn what_is_packed_is_unpacked() {
         for notation in [Notation::Degrees, Notation::Hours] {
             for angle_deg in [0.0, 12.582_5, -53.1, 359.999_999_999_9, 29.999_999_999_99, 1e-7] {
                 let angle_rad = f64::to_radians(angle_deg);
@@ -209,7 +215,5 @@ mod tests {
             }
         }
         assert_eq!(Notation::Degrees.pack((12.0 + 34.0 / 60.0 + 56.0 / 3600.0) * PI / 180.0), 12.3456);
-        assert!(!Notation::Degrees.unpack(10.755).1);
-        assert!(!Notation::Degrees.unpack(10.1575).1);
     }
 }

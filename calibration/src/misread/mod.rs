@@ -90,7 +90,10 @@ fn explains(tried: &Tried, as_read: &Score) -> bool {
         Reading::Packed { .. } => ratio <= SAME && hypothesis.digits > 0.0,
         // A robust scale hides a minority of rows.
         Reading::FromRow { .. } => ratio.min(score.rms / as_read.rms) <= RATIO,
-        _ => ratio <= RATIO || (as_read.penalty - score.penalty > CLEARED && ratio <= SAME),
+        _ => {
+            let is_cleared = as_read.penalty - score.penalty > CLEARED && ratio <= SAME;
+            ratio <= RATIO || (is_cleared && !hypothesis.of_both)
+        }
     };
     score.total - as_read.total >= MARGIN && is_gross
 }

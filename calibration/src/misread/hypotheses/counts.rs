@@ -28,6 +28,7 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
             price: COUNTS_PRICE,
             digits: 0.0,
             of_joints: false,
+            of_both: false,
         })
         .collect()
     };

@@ -32,5 +32,6 @@ fn hypothesis(tried: &Tried<'_>, one: &SampledColumn, other: &SampledColumn) -> 
         price: EXCHANGED_PRICE,
         digits: 0.0,
         of_joints: false,
+        of_both: false,
     }
 }

@@ -52,6 +52,8 @@ pub(super) struct Hypothesis {
     pub digits: f64,
     /// Whether it changes joints alone.
     pub of_joints: bool,
+    /// Whether it changes joints and what was observed: a smaller unit of both makes every error smaller, and explains nothing.
+    pub of_both: bool,
 }
 
 impl Hypothesis {
@@ -162,6 +164,7 @@ pub(super) fn all(plan: &Plan, columns: &[SampledColumn], indexed: Vec<SymbolId>
             hypothesis.price += alternatives - RARE.ln();
             let is_joint = |changed: &Changed| tried.joints.iter().any(|joint| joint.place == changed.place);
             hypothesis.of_joints = hypothesis.changes.iter().all(is_joint);
+            hypothesis.of_both = !hypothesis.of_joints && hypothesis.changes.iter().any(is_joint);
         }
         all.extend(own);
     }

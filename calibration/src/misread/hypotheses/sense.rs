@@ -17,6 +17,7 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
             price,
             digits: 0.0,
             of_joints: false,
+            of_both: false,
         };
         let name = || column.name.clone();
         let reversed =

@@ -23,6 +23,7 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
                 price: SHIFTED_PRICE,
                 digits: 0.0,
                 of_joints: false,
+                of_both: false,
             });
         }
     }

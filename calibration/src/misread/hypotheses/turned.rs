@@ -27,6 +27,7 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
                 price: TURNED_PRICE,
                 digits: 0.0,
                 of_joints: false,
+                of_both: false,
             }
         })
     };

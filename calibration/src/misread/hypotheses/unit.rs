@@ -41,5 +41,6 @@ fn hypothesis(tried: &Tried<'_>, columns: &[&SampledColumn], unit: &str) -> Opti
         price: 0.0,
         digits: 0.0,
         of_joints: false,
+        of_both: false,
     })
 }

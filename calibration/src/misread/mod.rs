@@ -13,6 +13,7 @@ mod trial;
 use model_core::SymbolId;
 use serde::Serialize;
 
+use fit::noise::resolution;
 use observe::SiUnit;
 use study::{Plan, Sample};
 
@@ -63,7 +64,8 @@ pub fn misread(plan: &Plan, sample: &Sample) -> Option<Misread> {
     let as_read =
         again.into_iter().fold(as_read, |one, other| if other.total > one.total { other } else { one });
     let margin = best.total - as_read.total;
-    readings.retain(|tried| explains(tried, &as_read));
+    let rounding = resolution(&trial.own);
+    readings.retain(|tried| explains(tried, &as_read, rounding));
     let top = readings.first()?.score.total;
     readings.retain(|tried| top - tried.score.total <= ONE_OF);
     let after = readings.first()?.score.rms;
@@ -81,15 +83,15 @@ pub fn misread(plan: &Plan, sample: &Sample) -> Option<Misread> {
     })
 }
 
-/// Whether a reading explains what the study's own does not.
-fn explains(tried: &Tried, as_read: &Score) -> bool {
+/// Whether a reading explains what the study's own does not. What only rounding leaves, rad or m, there is nothing to explain of.
+fn explains(tried: &Tried, as_read: &Score, rounding: f64) -> bool {
     let Tried { hypothesis, score, .. } = tried;
-    let ratio = score.scale / as_read.scale;
+    let ratio = if as_read.rms > rounding { score.scale / as_read.scale } else { 1.0 };
     let is_gross = match &hypothesis.reading {
         Reading::Shifted { .. } => ratio <= RATIO_ROWS,
         Reading::Packed { .. } => ratio <= SAME && hypothesis.digits > 0.0,
         // A robust scale hides a minority of rows.
-        Reading::FromRow { .. } => ratio.min(score.rms / as_read.rms) <= RATIO,
+        Reading::FromRow { .. } => as_read.rms > rounding && ratio.min(score.rms / as_read.rms) <= RATIO,
         _ => {
             let is_cleared = as_read.penalty - score.penalty > CLEARED && ratio <= SAME;
             ratio <= RATIO || (is_cleared && !hypothesis.of_both)

@@ -1,6 +1,6 @@
 //! TPOINT's observation files: a caption, options (`:ALTAZ`, `:EQUAT`, …), the site, and a record an observation.
 //!
-//! What a line says is [`lines`]' business. A declination read beyond 90° is through the pole. The columns are those of the table
+//! What a line says is the business of `lines`. A declination read beyond 90° is through the pole. The columns are those of the table
 //! below, as if a header had named them.
 //!
 //! | option | columns |

@@ -1,5 +1,5 @@
 //! Units as people write them: in declarations, headers of data, study files, errors files and on the command line. There is one
-//! table of them, [`table`], and one way to read a spelling, [`Unit::read`].
+//! table of them, `table`, and one way to read a spelling, [`Unit::read`].
 
 mod table;
 

@@ -21,11 +21,12 @@ pub fn from_medians(
     brought: &[f64],
 ) -> Noise {
     let stated = stated(options, observations, layout);
+    let resolution = resolution(observations);
     let floor = match options.known() {
         Some(sigma) => vec![sigma; layout.kinds],
         None => {
             let pools = Pools::of(observations, layout, 0.0);
-            let mute = Mute::of(observations, layout, residual, resolution(observations));
+            let mute = Mute::of(observations, layout, residual, resolution);
             let mut floors = medians(&pools, layout, residual, &stated, &mute);
             if !brought.is_empty() {
                 let of_pools = of_pools(layout, &pools, residual, &stated, brought, |_, _, _| [1.0; 2]);
@@ -35,7 +36,7 @@ pub fn from_medians(
             mute.lent(pools.by_kind(layout, floors, &stated))
         }
     };
-    finish(Noise { floor, of_readings: 1.0, ..Noise::default() }, observations, layout, &stated, brought)
+    finish(Noise { floor, of_readings: 1.0, ..Noise::default() }, resolution, layout, &stated, brought)
 }
 
 /// Of each pool its components, each with its weight and what it leaves of that.
@@ -90,7 +91,13 @@ pub fn of_floors(
     layout: &Layout,
 ) -> Noise {
     let stated = stated(options, observations, layout);
-    finish(Noise { floor, of_readings: 1.0, ..Noise::default() }, observations, layout, &stated, &[])
+    finish(
+        Noise { floor, of_readings: 1.0, ..Noise::default() },
+        resolution(observations),
+        layout,
+        &stated,
+        &[],
+    )
 }
 
 /// How much of residuals the estimates follow.
@@ -130,7 +137,8 @@ pub fn estimate(
         }
     };
     let pools = Pools::of(observations, layout, used);
-    let mute = Mute::of(observations, layout, residual, resolution(observations));
+    let resolution = resolution(observations);
+    let mute = Mute::of(observations, layout, residual, resolution);
     let strides = layout.runs.iter().flat_map(|run| std::iter::repeat_n(run.stride, run.stride));
     let consistency: Vec<f64> =
         strides.map(|stride| if robust_weights { robust::consistency(stride) } else { 1.0 }).collect();
@@ -163,7 +171,7 @@ pub fn estimate(
     let (floor, of_readings) =
         options.known().map_or_else(|| floors(&stated, brought), |sigma| (vec![sigma; layout.kinds], 1.0));
     let mut noise =
-        finish(Noise { floor, of_readings, ..Noise::default() }, observations, layout, &stated, brought);
+        finish(Noise { floor, of_readings, ..Noise::default() }, resolution, layout, &stated, brought);
     if options.variance && options.sigma.is_none() {
         let scaled: Vec<f64> = residual.iter().zip(&noise.sigma).map(|(r, sigma)| r / sigma).collect();
         let found = variance::fit(chain, observations, layout, &scaled, weight, &left);
@@ -182,7 +190,7 @@ pub fn estimate(
             let variance = found.into_iter().map(|(model, _)| model).collect();
             let (floor, of_readings) = floors(&spread, &brought);
             noise = Noise { floor, variance, of_readings, ..Noise::default() };
-            noise = finish(noise, observations, layout, &spread, &brought);
+            noise = finish(noise, resolution, layout, &spread, &brought);
         }
     }
     noise
@@ -208,14 +216,7 @@ pub(crate) fn each(spread: &[f64]) -> impl Iterator<Item = f64> {
 }
 
 /// Spreads the floors over the components, with what readings bring. No standard deviation is smaller than what the numbers resolve.
-fn finish(
-    mut noise: Noise,
-    observations: &Observations,
-    layout: &Layout,
-    spread: &[f64],
-    brought: &[f64],
-) -> Noise {
-    let resolution = resolution(observations);
+fn finish(mut noise: Noise, resolution: f64, layout: &Layout, spread: &[f64], brought: &[f64]) -> Noise {
     let of_each = layout.kind_of_each().zip(each(spread)).enumerate();
     let sigma = of_each.map(|(at, (kind, spread))| {
         let own = noise.floor[kind] * spread;

@@ -65,7 +65,7 @@ pub fn misread(plan: &Plan, sample: &Sample) -> Option<Misread> {
         again.into_iter().fold(as_read, |one, other| if other.total > one.total { other } else { one });
     let margin = best.total - as_read.total;
     let rounding = resolution(&trial.own);
-    readings.retain(|tried| explains(tried, &as_read, rounding));
+    readings.retain(|tried| explains(&trial, tried, &as_read, rounding));
     let top = readings.first()?.score.total;
     readings.retain(|tried| top - tried.score.total <= ONE_OF);
     let after = readings.first()?.score.rms;
@@ -84,7 +84,7 @@ pub fn misread(plan: &Plan, sample: &Sample) -> Option<Misread> {
 }
 
 /// Whether a reading explains what the study's own does not. What only rounding leaves, rad or m, there is nothing to explain of.
-fn explains(tried: &Tried, as_read: &Score, rounding: f64) -> bool {
+fn explains(trial: &Trial<'_>, tried: &Tried, as_read: &Score, rounding: f64) -> bool {
     let Tried { hypothesis, score, .. } = tried;
     let ratio = if as_read.rms > rounding { score.scale / as_read.scale } else { 1.0 };
     let is_gross = match &hypothesis.reading {
@@ -94,7 +94,9 @@ fn explains(tried: &Tried, as_read: &Score, rounding: f64) -> bool {
         Reading::FromRow { .. } => as_read.rms > rounding && ratio.min(score.rms / as_read.rms) <= RATIO,
         _ => {
             let is_cleared = as_read.penalty - score.penalty > CLEARED && ratio <= SAME;
-            ratio <= RATIO || (is_cleared && !hypothesis.of_both)
+            // A smaller unit of joints and of what was observed makes every error smaller, and explains nothing.
+            let [any, all] = trial.changes_joints(hypothesis);
+            ratio <= RATIO || (is_cleared && (all || !any))
         }
     };
     score.total - as_read.total >= MARGIN && is_gross

@@ -46,6 +46,15 @@ impl<'a> Trial<'a> {
         Some(Self { plan, sample, columns: sample.columns(), priors, options, model, own })
     }
 
+    /// Whether a reading changes columns of joints: any, and all that it changes.
+    pub fn changes_joints(&self, hypothesis: &Hypothesis) -> [bool; 2] {
+        let is_joint = |changed: &Changed| {
+            let own = self.columns.iter().find(|column| column.place == changed.place);
+            own.is_some_and(|column| hypotheses::is_joint(self.plan, column))
+        };
+        [hypothesis.changes.iter().any(is_joint), hypothesis.changes.iter().all(is_joint)]
+    }
+
     /// The score of the study's own reading. It alone is worth other starts: most other readings are wrong and end far off.
     pub fn as_read(&self) -> Option<Score> {
         let options = FitOptions { other_starts: true, ..self.options.clone() };
@@ -101,7 +110,11 @@ impl<'a> Trial<'a> {
         let row_number = |row: usize| self.own.row_numbers.get(row).unwrap_or_default();
         let mut parts: Vec<(Hypothesis, f64)> = Vec::new();
         let own = self.norms(&self.own, &as_read.values);
-        for tried in whole.iter().filter(|tried| from_row::may_change(&tried.hypothesis)) {
+        let may_be = |tried: &&Tried| {
+            let [_, alone] = self.changes_joints(&tried.hypothesis);
+            alone && from_row::may_change(&tried.hypothesis)
+        };
+        for tried in whole.iter().filter(may_be) {
             let of = |as_read: &[f64], values: &[f64]| {
                 let otherwise = &self.norms(&tried.observations, values)?;
                 from_row::of_rows(&tried.hypothesis, &from_row::Off { as_read, otherwise }, row_number)

@@ -27,8 +27,6 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
             lines: vec![line(tried.plan, column, &column.name, &format!(", counts_per_turn = {per_turn}"))],
             price: COUNTS_PRICE,
             digits: 0.0,
-            of_joints: false,
-            of_both: false,
         })
         .collect()
     };

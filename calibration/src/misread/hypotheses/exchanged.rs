@@ -31,7 +31,5 @@ fn hypothesis(tried: &Tried<'_>, one: &SampledColumn, other: &SampledColumn) -> 
         lines: vec![reads(one, other), reads(other, one)],
         price: EXCHANGED_PRICE,
         digits: 0.0,
-        of_joints: false,
-        of_both: false,
     }
 }

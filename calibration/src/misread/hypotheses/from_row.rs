@@ -15,13 +15,12 @@ pub(in crate::misread) struct Off<'a> {
     pub otherwise: &'a [f64],
 }
 
-/// Whether a hypothesis may hold of some rows: a unit, a sign or a zero of joints.
+/// Whether a hypothesis of joints may hold of some rows: a unit, a sign or a zero.
 pub(in crate::misread) fn may_change(hypothesis: &Hypothesis) -> bool {
-    let is_kind = matches!(
+    matches!(
         hypothesis.reading,
         Reading::Unit { .. } | Reading::Reversed { .. } | Reading::FromZenith { .. } | Reading::Turned { .. }
-    );
-    is_kind && hypothesis.of_joints
+    )
 }
 
 /// The hypothesis for those rows that it suits, from one on or before one; and how much likelier the rows are, nats.

@@ -50,10 +50,6 @@ pub(super) struct Hypothesis {
     pub price: f64,
     /// What the digits alone say for it, nats.
     pub digits: f64,
-    /// Whether it changes joints alone.
-    pub of_joints: bool,
-    /// Whether it changes joints and what was observed: a smaller unit of both makes every error smaller, and explains nothing.
-    pub of_both: bool,
 }
 
 impl Hypothesis {
@@ -149,26 +145,25 @@ pub struct Line {
 /// Every hypothesis about the columns of a study. Of one kind each is as likely as the others.
 pub(super) fn all(plan: &Plan, columns: &[SampledColumn], indexed: Vec<SymbolId>) -> Vec<Hypothesis> {
     let of = |is: &dyn Fn(&SampledColumn) -> bool| columns.iter().filter(|column| is(column)).collect();
-    let is_joint = |column: &SampledColumn| match column.read {
-        Read::Reading(id) => plan.chain.symbol(id).kind == SymbolKind::Joint,
-        Read::Observed(_) => false,
-    };
-    let joints: Vec<&SampledColumn> = of(&is_joint);
+    let joints: Vec<&SampledColumn> = of(&|column| is_joint(plan, column));
     let observed: Vec<&SampledColumn> = of(&|column| matches!(column.read, Read::Observed(_)));
     let tried = Tried { plan, joints, observed, indexed };
     let mut all = Vec::new();
     for kind in KINDS {
         let mut own = kind(&tried);
         let alternatives = (own.len().max(1) as f64).ln();
-        for hypothesis in &mut own {
-            hypothesis.price += alternatives - RARE.ln();
-            let is_joint = |changed: &Changed| tried.joints.iter().any(|joint| joint.place == changed.place);
-            hypothesis.of_joints = hypothesis.changes.iter().all(is_joint);
-            hypothesis.of_both = !hypothesis.of_joints && hypothesis.changes.iter().any(is_joint);
-        }
+        own.iter_mut().for_each(|hypothesis| hypothesis.price += alternatives - RARE.ln());
         all.extend(own);
     }
     all
+}
+
+/// Whether a column holds readings of a joint.
+pub(super) fn is_joint(plan: &Plan, column: &SampledColumn) -> bool {
+    match column.read {
+        Read::Reading(id) => plan.chain.symbol(id).kind == SymbolKind::Joint,
+        Read::Observed(_) => false,
+    }
 }
 
 /// Columns that one habit may spoil: all joints, all that was observed, both, and each alone.

@@ -23,8 +23,6 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
         price: PACKED_PRICE,
         // Of a hundred pairs of digits sixty are below 60.
         digits: set.iter().map(|column| -0.6_f64.ln() * PAIRS * column.written.len() as f64).sum(),
-        of_joints: false,
-        of_both: false,
     };
     sets(tried, is_packed).into_iter().map(hypothesis).collect()
 }

@@ -16,8 +16,6 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
             lines: vec![line(tried.plan, column, &column.name, &format!("{}{how}", unit_of(column)))],
             price,
             digits: 0.0,
-            of_joints: false,
-            of_both: false,
         };
         let name = || column.name.clone();
         let reversed =

@@ -22,8 +22,6 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
                     .collect(),
                 price: SHIFTED_PRICE,
                 digits: 0.0,
-                of_joints: false,
-                of_both: false,
             });
         }
     }

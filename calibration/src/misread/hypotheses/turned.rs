@@ -26,8 +26,6 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
                 lines: vec![line(tried.plan, column, &column.name, &how)],
                 price: TURNED_PRICE,
                 digits: 0.0,
-                of_joints: false,
-                of_both: false,
             }
         })
     };

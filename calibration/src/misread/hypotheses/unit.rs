@@ -40,7 +40,5 @@ fn hypothesis(tried: &Tried<'_>, columns: &[&SampledColumn], unit: &str) -> Opti
         lines,
         price: 0.0,
         digits: 0.0,
-        of_joints: false,
-        of_both: false,
     })
 }

@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use model_core::{Chain, ObservableId, ObservableKind, Quantity};
+use observe::spherical_of_direction;
 
 use crate::refusal::Refusal;
 
@@ -124,8 +125,9 @@ impl Seen {
 }
 
 /// Azimuth and elevation of a vector, rad: azimuth from 0 to 2π, hour angle the same.
-fn angles([x, y, z]: [f64; 3]) -> [f64; 2] {
-    [x.atan2(y).rem_euclid(TAU), z.atan2(x.hypot(y))]
+fn angles(vector: [f64; 3]) -> [f64; 2] {
+    let [azimuth_rad, elevation_rad] = spherical_of_direction(&vector.into());
+    [azimuth_rad.rem_euclid(TAU), elevation_rad]
 }
 
 /// By how much azimuth and elevation grew when `added` was added to make `v`, rad, without losing the digits of a small turn.

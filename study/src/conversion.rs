@@ -15,7 +15,7 @@ const MOST_SHIFT: i64 = 1000;
 /// Decimal digits that binary holds.
 const DIGITS: i32 = 15;
 
-/// A number with so many decimal digits.
+/// A number rounded to some significant decimal digits.
 pub(super) fn to_digits(number: f64, digits: i32) -> f64 {
     if number == 0.0 || !number.is_finite() {
         return number;
@@ -32,7 +32,7 @@ pub enum Notation {
     Degrees,
     /// Hours, minutes and seconds as one number: 123456.7 is 12 h 34 min 56.7 s.
     Hours,
-    /// Counts of an encoder, so many a turn.
+    /// Counts of an encoder, with the number of counts a turn.
     Counts(f64),
 }
 

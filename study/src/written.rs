@@ -137,7 +137,7 @@ pub(super) struct Column {
     pub sign: Option<Spanned<i64>>,
     /// What is added to each number.
     pub offset: Option<Spanned<Amount>>,
-    /// The numbers are counts of an encoder, so many a turn.
+    /// The numbers are counts of an encoder: how many a turn has.
     pub counts_per_turn: Option<Spanned<f64>>,
     /// `ddd.mmss` or `hhmmss`.
     pub notation: Option<Spanned<String>>,

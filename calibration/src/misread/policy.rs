@@ -21,6 +21,8 @@ pub(super) const PACKED_PRICE: f64 = 1.0;
 pub(super) const ZENITH_PRICE: f64 = 1.0;
 pub(super) const SHIFTED_PRICE: f64 = 1.5;
 pub(super) const COUNTS_PRICE: f64 = 2.0;
+/// Counts of an encoder span more degrees than that.
+pub(super) const COUNTS_DEGREES: f64 = 4.0 * 360.0;
 pub(super) const TURNED_PRICE: f64 = 1.0;
 /// And that it holds of some rows alone.
 pub(super) const FROM_ROW_PRICE: f64 = 3.0;
@@ -54,6 +56,8 @@ pub struct Threshold {
 
 const TRIALS: &str =
     "402 clean and 190 misread simulated studies of eight instruments, thresholds moved once between halves";
+const PRICED: &str =
+    "specification: prices of kinds of mistake, measured there on five to seven files a kind";
 const ASKED: &str = "specification: beyond this a value is no small error";
 
 /// Every number that decides here.
@@ -84,13 +88,15 @@ pub const THRESHOLDS: &[Threshold] = &[
         TRIALS,
     ),
     row("misread.shifted", SHIFTED_PRICE, "nats that slipped rows are rarer than a wrong unit", TRIALS),
+    row("misread.counts", COUNTS_PRICE, "nats that counts of an encoder are rarer than a wrong unit", PRICED),
+    row("misread.counts_degrees", COUNTS_DEGREES, "degrees that counts of an encoder span at least", PRICED),
     row(
         "misread.turned",
         TURNED_PRICE,
         "nats that a zero a quarter turn off is rarer than a wrong unit",
-        TRIALS,
+        PRICED,
     ),
-    row("misread.from_row", FROM_ROW_PRICE, "nats that a mistake of some rows alone is rarer", TRIALS),
+    row("misread.from_row", FROM_ROW_PRICE, "nats that a mistake of some rows alone is rarer", PRICED),
     row("prior.tilt_rad", TILT_RAD, "size of a tilt, scale of its prior", TRIALS),
     row(
         "prior.length_share",

@@ -1,11 +1,11 @@
-//! A joint is in counts of its encoder: whole numbers, so many a turn.
+//! A joint is in counts of its encoder: whole numbers, a fixed number a turn.
 
 use std::f64::consts::TAU;
 
 use model_core::Quantity;
 
 use super::{Hypothesis, Reading, Tried, line};
-use crate::misread::policy::COUNTS_PRICE;
+use crate::misread::policy::{COUNTS_DEGREES, COUNTS_PRICE};
 use study::{Change, Changed, SampledColumn};
 
 /// Powers of two that encoders have.
@@ -14,9 +14,6 @@ const BITS: std::ops::RangeInclusive<u32> = 10..=26;
 /// Counts of encoders that divide a turn, or a degree, by ten.
 const DECIMAL: [u32; 9] =
     [3_600, 10_000, 36_000, 100_000, 360_000, 1_000_000, 3_600_000, 10_000_000, 36_000_000];
-
-/// Counts span more than that many degrees.
-const MOST_DEGREES: f64 = 4.0 * 360.0;
 
 pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
     let of_column = |column: &&SampledColumn| -> Vec<Hypothesis> {
@@ -40,5 +37,5 @@ fn may_be(column: &SampledColumn) -> bool {
     column.quantity == Quantity::Angle
         && column.unit_is_open
         && column.written.iter().all(|number| number.fract() == 0.0)
-        && most - least > MOST_DEGREES
+        && most - least > COUNTS_DEGREES
 }

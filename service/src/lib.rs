@@ -12,6 +12,7 @@ pub mod instrument;
 pub mod over_memory;
 pub mod readings;
 mod refusal;
+pub mod sensitivity;
 pub mod source;
 pub mod tolerance;
 mod warn;

@@ -6,6 +6,7 @@
 pub mod apply;
 pub mod budget;
 pub mod calibrating;
+pub mod compare;
 pub mod errors_file;
 pub mod evaluation;
 pub mod instrument;

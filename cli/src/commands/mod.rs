@@ -6,6 +6,7 @@ pub mod budget;
 pub mod calibrate;
 pub mod check;
 mod class;
+mod compare;
 mod completions;
 pub mod derive;
 mod eval;
@@ -69,6 +70,7 @@ commands! {
     Eval => eval,
     Calibrate => calibrate,
     Apply => apply,
+    Compare => compare,
     Class => class,
     Completions => completions,
     Manual => manual,

@@ -16,6 +16,7 @@ mod refusal;
 pub mod sensitivity;
 pub mod source;
 pub mod tolerance;
+pub mod verify;
 mod warn;
 
 pub use calibrating::{Calibrated, Made, Measured, Studied};

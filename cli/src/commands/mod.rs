@@ -15,6 +15,7 @@ pub mod identify;
 mod init;
 mod manual;
 pub mod simulate;
+mod verify;
 
 use crate::failure::Failure;
 
@@ -71,6 +72,7 @@ commands! {
     Calibrate => calibrate,
     Apply => apply,
     Compare => compare,
+    Verify => verify,
     Class => class,
     Completions => completions,
     Manual => manual,

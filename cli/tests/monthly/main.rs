@@ -4,6 +4,7 @@
 mod support;
 
 mod compare;
+mod verify;
 
 use std::f64::consts::PI;
 

@@ -4,6 +4,8 @@
 mod support;
 
 mod compare;
+mod refused;
+mod uncertainty;
 mod verify;
 
 use std::f64::consts::PI;

@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use model_core::{Chain, ObservableId, ObservableKind, Quantity};
 use observe::spherical_of_direction;
 
+use super::uncertain::along;
 use crate::refusal::Refusal;
 
 /// How a direction is written.
@@ -103,6 +104,37 @@ impl Seen {
                 let turned = turn(at, [0, 1, 2].map(|axis: usize| error[axis][row]));
                 columns[2].push(turned[0] / ARCSEC);
                 columns[3].push(turned[1] / ARCSEC);
+            }
+        }
+        columns
+    }
+
+    /// Headers of the standard uncertainties: of each angle in arc seconds, of each component in its own unit.
+    pub fn uncertainty_headers(&self, chain: &Chain) -> Vec<String> {
+        let name = &chain.observable(self.observable).name;
+        let small = if self.form == As::Vector { "" } else { " [arcsec]" };
+        self.parts.iter().map(|part| format!("{name}_{part}_uncertainty{small}")).collect()
+    }
+
+    /// The standard uncertainty of each column, from the value with the errors and its [covariance](super::Uncertain::columns).
+    pub fn uncertainties(&self, value: &[Vec<f64>], covariance: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let rows = value[0].len();
+        if self.form == As::Vector {
+            let count = value.len();
+            let own =
+                |at: usize| (0..rows).map(|row| covariance[at * count + at][row].max(0.0).sqrt()).collect();
+            return (0..count).map(own).collect();
+        }
+        let mut columns = vec![Vec::with_capacity(rows); 2];
+        for row in 0..rows {
+            let [x, y, z] = [0, 1, 2].map(|axis: usize| value[axis][row]);
+            let flat = x.hypot(y);
+            let square = flat * flat + z * z;
+            // Of atan2(x, y), and of the elevation above the xy plane.
+            let azimuth = [y / (flat * flat), -x / (flat * flat), 0.0];
+            let elevation = [-x * z / (flat * square), -y * z / (flat * square), flat / square];
+            for (column, gradient) in columns.iter_mut().zip([azimuth, elevation]) {
+                column.push(along(&gradient, covariance, row) / ARCSEC);
             }
         }
         columns

@@ -12,6 +12,15 @@ use super::{Comparison, Observed, Value};
 /// Values that a headline names.
 const NAMED: usize = 3;
 
+/// Letters of a line of a table of a history.
+const WIDTH: usize = 98;
+
+/// Letters of a day, and what stands between two columns.
+const DAY: usize = 16;
+
+/// What the row of drifts is called.
+const DRIFT: &str = "drift per month";
+
 /// A comparison as text.
 #[must_use]
 pub fn as_text(comparison: &Comparison) -> Screen {
@@ -179,26 +188,51 @@ fn table(comparison: &Comparison) -> Screen {
         add(laid_out(&heads, &rows.collect::<Vec<_>>()));
         return out;
     }
-    // One row a file, a column for each value.
-    let names = comparison.values.iter().map(|value| value.name.clone());
+    for some in in_width(comparison) {
+        add(history(comparison, some, &chance));
+    }
+    out
+}
+
+/// The values in tables that are no wider than a page: one row a file, a column for each value.
+fn in_width(comparison: &Comparison) -> Vec<&[Value]> {
+    let files = comparison.files.iter().map(|(name, _)| name.chars().count() + DAY);
+    let first = files.max().unwrap_or(0).max(DRIFT.chars().count());
+    let width = |value: &Value| {
+        let cells = value.points.iter().map(|point| cell(value.unit, *point));
+        let all = cells.chain([value.name.clone(), drift(value), "p ≤ 0.001 changed".to_owned()]);
+        all.map(|cell| cell.chars().count() + 2).max().unwrap_or(0)
+    };
+    let (mut tables, mut start, mut used) = (Vec::new(), 0, first);
+    for (at, value) in comparison.values.iter().enumerate() {
+        if at > start && used + width(value) > WIDTH {
+            tables.push(&comparison.values[start..at]);
+            (start, used) = (at, first);
+        }
+        used += width(value);
+    }
+    tables.push(&comparison.values[start..]);
+    tables
+}
+
+fn history(comparison: &Comparison, values: &[Value], chance: &dyn Fn(&Value) -> String) -> (String, String) {
+    let names = values.iter().map(|value| value.name.clone());
     let heads: Vec<String> = ["file", "day"].map(str::to_owned).into_iter().chain(names).collect();
-    let rows = comparison.files.iter().enumerate().map(|(at, (name, date))| {
-        let points = comparison.values.iter().map(|value| cell(value.unit, value.points[at]));
+    let files = comparison.files.iter().enumerate().map(|(at, (name, date))| {
+        let points = values.iter().map(|value| cell(value.unit, value.points[at]));
         [name.clone(), date.clone().unwrap_or_default()].into_iter().chain(points).collect()
     });
-    let mut rows: Vec<Vec<String>> = rows.collect();
     let last = |label: &str, of: &dyn Fn(&Value) -> String| {
-        let cells = comparison.values.iter().map(of);
-        [label.to_owned(), String::new()].into_iter().chain(cells).collect::<Vec<String>>()
+        [label.to_owned(), String::new()].into_iter().chain(values.iter().map(of)).collect::<Vec<String>>()
     };
-    rows.push(last("drift per month", &|value| {
-        value.drift.map_or_else(String::new, |own| {
-            numbers::estimate(own.per_month, own.standard_uncertainty, value.unit)
-        })
-    }));
-    rows.push(last("corrected p", &chance));
-    add(laid_out(&heads, &rows));
-    out
+    let rows: Vec<Vec<String>> = files.chain([last(DRIFT, &drift), last("corrected p", chance)]).collect();
+    laid_out(&heads, &rows)
+}
+
+fn drift(value: &Value) -> String {
+    value.drift.map_or_else(String::new, |own| {
+        numbers::estimate(own.per_month, own.standard_uncertainty, value.unit)
+    })
 }
 
 fn notes(comparison: &Comparison) -> String {

@@ -112,13 +112,12 @@ fn covariance(reported: &Reported<'_>) -> String {
 fn noise(reported: &Reported<'_>) -> String {
     let (fit, observations) = (&reported.calibration.after, reported.observations);
     let (sigma, layout) = (fit.noise.sigma_without_memory(), Layout::of(observations));
-    let weight = &fit.residuals.weight;
+    let counts = |row: usize| fit.residuals.weight.get(row).is_some_and(|weight| *weight > 0.0);
     let mut text = String::new();
     for series in &observations.poses.series {
         let components = series.measure.components();
         let own = sigma.get(layout.of_rows(series.rows.clone())).unwrap_or_default();
-        let kept =
-            || series.rows.clone().zip(own.chunks_exact(components)).filter(|(row, _)| weight[*row] > 0.0);
+        let kept = || series.rows.clone().zip(own.chunks_exact(components)).filter(|(row, _)| counts(*row));
         let count = kept().count() as f64;
         let rms = |at: usize| (kept().map(|(_, own)| own[at] * own[at]).sum::<f64>() / count).sqrt();
         let numbers: Vec<f64> = (0..components).map(rms).collect();

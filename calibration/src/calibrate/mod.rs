@@ -214,6 +214,11 @@ fn searched<'a>(
     own: &'a Loop,
 ) -> Result<Chosen<'a>, CalibrateError> {
     let weighed = weighed::weighed(whole, &first)?;
+    if let Some(told) = &weighed
+        && let Some(round) = weighed::explained(whole, &first, told)?
+    {
+        return Ok(Chosen { judged: judged(whole, before, round)?, whole: whole.clone(), as_good: Vec::new() });
+    }
     let round = outliers::reconsidered(whole, rounds(whole, first)?)?;
     let (whole, round, left_out) = match &weighed {
         None => (whole.clone(), round, None),

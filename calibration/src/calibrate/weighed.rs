@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::memory::remembering;
 use super::rounds::{names, taken_up};
-use crate::contest::{Contest, Told, is_asked};
+use crate::contest::{Contest, Hypothesis, Told, is_asked};
 use crate::diagnose::Caution;
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
@@ -38,7 +38,7 @@ pub(super) fn explained<'a>(
     whole: &Context<'a>,
     first: &Round<'a>,
     told: &Told,
-) -> Result<Option<Round<'a>>, SearchError> {
+) -> Result<Option<(Round<'a>, Vec<Hypothesis>)>, SearchError> {
     let search = &whole.request.plan.search;
     let mut told = told.clone();
     let mut last = None;
@@ -48,11 +48,18 @@ pub(super) fn explained<'a>(
             return Ok(None);
         }
         let from = last.as_ref().unwrap_or(first);
-        let Some(next) = taken_up(whole, told.causes.clone(), from)? else { return Ok(None) };
+        let Some(mut next) = taken_up(whole, told.causes.clone(), from)? else { return Ok(None) };
         let contest = Contest::at(whole, &next.fitted)?;
         let Some(again) = contest.told(whole) else { return Ok(None) };
         if names(&again.causes) == names(&next.fitted.found) {
-            return Ok(again.explains().then(|| next.explained_by(Arc::new(contest))));
+            if !again.explains() {
+                return Ok(None);
+            }
+            for found in &mut next.fitted.found {
+                let as_told = again.causes.iter().find(|told| told.effect == found.effect);
+                as_told.into_iter().for_each(|told| found.clone_from(told));
+            }
+            return Ok(Some((next.explained_by(Arc::new(contest)), again.contest)));
         }
         told = again;
         last = Some(next);

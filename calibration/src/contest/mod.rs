@@ -5,9 +5,12 @@
 //! which. Where it tells no cause, none is told.
 
 mod problem;
+mod recorded;
+
+pub use recorded::Hypothesis;
 
 use evidence::families::Law;
-use evidence::{Policy, contest};
+use evidence::{Outcome, Policy, Problem, contest};
 
 use crate::search::SearchError;
 use crate::search::context::{Context, Found};
@@ -38,6 +41,8 @@ pub(crate) struct Told {
     pub setups: usize,
     /// A column that the study does not name, whose values say which rows belong together.
     pub column: Option<String>,
+    /// Who competed.
+    pub contest: Vec<Hypothesis>,
 }
 
 impl Told {
@@ -88,7 +93,9 @@ impl Contest {
     /// A column of the file that the study does not name may say which rows belong together. Where a cause is told, each is asked
     /// whether its values explain the rows better.
     pub fn told(&self, whole: &Context<'_>) -> Option<Told> {
-        let (mut odds, mut best) = self.of(&self.asked.problem)?;
+        let outcome = self.of(&self.asked.problem)?;
+        let (mut odds, mut best) = (outcome.odds(), self.read(&outcome));
+        best.contest = recorded::recorded(&outcome);
         if best.is_nothing() {
             return Some(best);
         }
@@ -98,17 +105,21 @@ impl Contest {
         for Undeclared { column, of_row } in undeclared {
             let mut labelled = self.asked.problem.clone();
             labelled.rows.labels = Some(of_row);
-            if let Some((other, told)) = self.of(&labelled).filter(|(other, _)| other - price > odds) {
-                odds = other - price;
-                best = Told { column: Some(column), ..told };
+            if let Some(other) = self.of(&labelled).filter(|other| other.odds() - price > odds) {
+                odds = other.odds() - price;
+                best =
+                    Told { column: Some(column), contest: recorded::recorded(&other), ..self.read(&other) };
             }
         }
         Some(best)
     }
 
-    /// What one contest tells, and its log odds.
-    fn of(&self, problem: &evidence::Problem) -> Option<(f64, Told)> {
-        let outcome = contest(problem, &self.policy, None).ok()?;
+    fn of<'p>(&'p self, problem: &'p Problem) -> Option<Outcome<'p>> {
+        contest(problem, &self.policy, None).ok()
+    }
+
+    /// What an outcome tells.
+    fn read(&self, outcome: &Outcome<'_>) -> Told {
         let law = |family: usize| outcome.families()[family].law;
         let effect = |family: usize| match law(family) {
             Law::Offered(number) => Some(self.asked.effects[number]),
@@ -123,27 +134,31 @@ impl Contest {
             ..Told::default()
         };
         for finding in outcome.findings().iter().filter(|finding| finding.named) {
-            let offered =
-                || finding.set.iter().filter_map(|&(family, score)| Some((effect(family)?, score)));
-            let best = offered().map(|(_, score)| score).fold(f64::NEG_INFINITY, f64::max);
+            let shares = finding.set.iter().zip(&finding.shares);
+            let offered: Vec<(EffectId, f64, f64)> = shares
+                .filter_map(|(&(family, score), &share)| Some((effect(family)?, score, share)))
+                .collect();
+            let best = offered.iter().map(|(_, score, _)| *score).fold(f64::NEG_INFINITY, f64::max);
             // Of causes that are one to the data the first of the catalogue stands for all.
-            let even = offered().filter(|(_, score)| *score >= best - self.policy.even);
-            let Some(first) = even.map(|(effect, _)| effect).min() else {
+            let even = offered.iter().filter(|(_, score, _)| *score >= best - self.policy.even);
+            let Some(first) = even.map(|(effect, ..)| *effect).min() else {
                 told.is_open = true;
                 continue;
             };
             let p_value = (-finding.margin).exp().min(1.0);
             if told.causes.iter().all(|found| found.effect != first) {
-                told.causes.push(Found { effect: first, p_value, alike: vec![first] });
+                let shares = offered.iter().map(|(effect, _, share)| (*effect, *share)).collect();
+                told.causes.push(Found { effect: first, p_value, alike: vec![first], shares });
             }
         }
-        Some((outcome.odds(), told))
+        told
     }
 }
 
 impl Explains for Contest {
     fn of_rows(&self, keeps: &(dyn Fn(usize) -> bool + Sync)) -> Vec<EffectId> {
-        let told = self.of(&self.asked.problem.of_rows(keeps));
-        told.map_or_else(Vec::new, |(_, told)| told.causes.iter().map(|found| found.effect).collect())
+        let some = self.asked.problem.of_rows(keeps);
+        let told = self.of(&some).map(|outcome| self.read(&outcome));
+        told.map_or_else(Vec::new, |told| told.causes.iter().map(|found| found.effect).collect())
     }
 }

@@ -8,9 +8,7 @@ use super::context::{Context, Found};
 use super::fitted::Fitted;
 use super::state::State;
 use crate::search::search_problem::SearchProblem;
-use crate::search::{
-    Accepted, ConfoundedSet, HeldOut, Problem, Selection, confounded_sets, nested, select,
-};
+use crate::search::{Accepted, ConfoundedSet, HeldOut, Problem, Selection, confounded_sets, nested, select};
 use effects::candidate::EffectId;
 
 /// Degrees of freedom of a residual, and groups of its rows, below which nothing can be told of its structure.
@@ -195,7 +193,7 @@ impl<'a> Round<'a> {
                 Some(at) => self.fitted.found[at].clone(),
                 None => {
                     let alike = self.sets[accepted.set].members.clone();
-                    Found { effect: alike[0], p_value: accepted.p_value, alike }
+                    Found { effect: alike[0], p_value: accepted.p_value, alike, shares: Vec::new() }
                 }
             })
             .collect()

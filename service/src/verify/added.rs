@@ -58,7 +58,8 @@ pub fn added(
     let is_enough = |matrix: &DMatrix<f64>| shares(matrix).iter().all(|share| *share >= 1.0);
     while chosen.len() < MOST_ADDED && !is_enough(&matrix) {
         let gained = |pose: &usize| shares(&(&matrix + of_pose(*pose))).iter().sum::<f64>();
-        let best = (0..poses.rows()).map(|pose| (gained(&pose), pose)).max_by(|a, b| a.0.total_cmp(&b.0));
+        let left = (0..poses.rows()).filter(|pose| !chosen.contains(pose));
+        let best = left.map(|pose| (gained(&pose), pose)).max_by(|a, b| a.0.total_cmp(&b.0));
         let Some((_, pose)) = best else { break };
         matrix += of_pose(pose);
         chosen.push(pose);

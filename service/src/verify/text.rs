@@ -53,9 +53,10 @@ fn reasons(verified: &Verified) -> Vec<String> {
     let rows = counted(verified.judged.len());
     let chance = numbers::chance(verified.p_value);
     let goal = size(verified.goal);
+    let agree = if verified.judged.len() == 1 { "agrees" } else { "agree" };
     match verified.verdict {
         Verdict::StillValid => vec![
-            format!("{rows} agree with the calibration ({chance})."),
+            format!("{rows} {agree} with the calibration ({chance})."),
             format!(
                 "A change of any one error by {} RMS would have shown (goal {goal}).",
                 size(largest(verified))
@@ -66,7 +67,8 @@ fn reasons(verified: &Verified) -> Vec<String> {
             hint(verified),
         ],
         Verdict::Recalibrate => {
-            let disagree = format!("{rows} disagree with the calibration ({chance}).");
+            let verb = if verified.judged.len() == 1 { "disagrees" } else { "disagree" };
+            let disagree = format!("{rows} {verb} with the calibration ({chance}).");
             match verified.one_row {
                 Some(row) => vec![
                     disagree,
@@ -77,7 +79,7 @@ fn reasons(verified: &Verified) -> Vec<String> {
         }
         Verdict::CannotSay => vec![
             format!(
-                "{rows} agree with the calibration ({chance}), but could not have shown every change of {goal} RMS."
+                "{rows} {agree} with the calibration ({chance}), but could not have shown every change of {goal} RMS."
             ),
             missed(verified),
             advice(verified),
@@ -110,14 +112,14 @@ fn hint(verified: &Verified) -> String {
     };
     match verified.explaining.as_slice() {
         [] if verified.rest.p_value < verified.explained.p_value => {
-            "No change of the declared errors explains them. Look for something loose or another noise.".to_owned()
+            "No change of the declared errors explains the rows. Look for something loose or another noise.".to_owned()
         }
-        [] => "No single error explains them. Several errors changed, or something that the model does not contain."
+        [] => "No single error explains the rows. Several errors changed, or something that the model does not contain."
             .to_owned(),
-        [one] => format!("A change of {} explains them best.", named(one)),
+        [one] => format!("A change of {} explains the rows best.", named(one)),
         several => {
             let names: Vec<String> = several.iter().take(NAMED).map(named).collect();
-            format!("Each of these changes alone explains them: {}.", names.join(", "))
+            format!("Each of these changes alone explains the rows: {}.", names.join(", "))
         }
     }
 }
@@ -144,12 +146,11 @@ fn advice(verified: &Verified) -> String {
             )
         }
         Some(added) if added.is_enough => {
-            format!("Measure {} more, as listed below.", counted(added.poses.len()))
+            format!("Measure {} as listed below.", more(added.poses.len()))
         }
-        Some(added) => format!(
-            "Even {} more are not enough. Set a larger goal, or calibrate again.",
-            counted(added.poses.len())
-        ),
+        Some(added) => {
+            format!("Even {} are not enough. Set a larger goal, or calibrate again.", more(added.poses.len()))
+        }
         None => "Measure more rows, spread over the measured region.".to_owned(),
     }
 }
@@ -226,6 +227,10 @@ fn notes(verified: &Verified) -> String {
 
 fn largest(verified: &Verified) -> f64 {
     verified.errors.iter().map(|error| error.shown).fold(0.0, f64::max)
+}
+
+fn more(rows: usize) -> String {
+    format!("{rows} more row{}", if rows == 1 { "" } else { "s" })
 }
 
 fn counted(rows: usize) -> String {

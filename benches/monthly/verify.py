@@ -1,9 +1,9 @@
 """How often `trueaxis verify` gives a false alarm, and how often it finds a change of twice the goal.
 
-Each calibration is simulated, calibrated by `trueaxis calibrate`, and then checked with ten new rows at a time, by the command as users run it. The
-simulator is plain matrices and Python's own random numbers: nothing of the project.
+Each calibration is simulated and fitted by least squares of this program's own, and written as an instrument file. It is then checked with ten new
+rows at a time, by the command as users run it. All is plain matrices and Python's own random numbers: nothing of the project.
 
-    python3 benches/monthly/verify.py --program target/release/trueaxis --calibrations 100 --checks 10
+    python3 benches/monthly/verify.py --program target/release/trueaxis
 """
 import argparse
 import json
@@ -27,17 +27,39 @@ CHAIN = """chain Mount {
     observe pointing: direction(0, 1, 0) of tube;
 }
 """
-STUDY = """chain = "mount.chain"
+FILE = """instrument = 1
+
+chain = '''
+{chain}'''
+
+[errors]
+{errors}
+
+[found-over]
+azimuth = ["{azimuth[0]!r} rad", "{azimuth[1]!r} rad"]
+elevation = ["{elevation[0]!r} rad", "{elevation[1]!r} rad"]
+
+[covariance]
+of = ["tilt_x", "tilt_y", "index", "collimation"]
+undetermined = []
+rows = {covariance}
+
+[[noise]]
+sigma = [{sigma!r}, {sigma!r}]
+degrees-of-freedom = {freedom}
+
+[study]
+chain = "mount.chain"
 data = "stars.csv"
-[columns]
-azimuth = { column = "az", unit = "deg" }
-elevation = { column = "el", unit = "deg" }
-[observed]
+
+[study.columns]
+azimuth = {{ column = "az", unit = "deg" }}
+elevation = {{ column = "el", unit = "deg" }}
+
+[study.observed]
 kind = "spherical"
-azimuth = { column = "true_az", unit = "deg" }
-elevation = { column = "true_el", unit = "deg" }
-[hold_out]
-folds = 3
+azimuth = {{ column = "true_az", unit = "deg" }}
+elevation = {{ column = "true_el", unit = "deg" }}
 """
 
 
@@ -63,14 +85,60 @@ def pose(source):
     return math.radians(source.uniform(-180, 180)), math.radians(source.uniform(10, 80))
 
 
-def measured(e, poses, sigma, source):
-    lines = ["az,el,true_az,true_el"]
+def rows_of(e, poses, sigma, source):
+    """Readings, and what is measured there."""
+    rows = []
     for azimuth, elevation in poses:
         a, b = pointing(e, azimuth, elevation)
-        a += source.gauss(0, sigma) / math.cos(b)
-        b += source.gauss(0, sigma)
-        lines.append(",".join(f"{math.degrees(x):.9f}" for x in (azimuth, elevation, a, b)))
-    return "\n".join(lines) + "\n"
+        rows.append((azimuth, elevation, a + source.gauss(0, sigma) / math.cos(b), b + source.gauss(0, sigma)))
+    return rows
+
+
+def table(rows):
+    lines = [",".join(f"{math.degrees(x):.9f}" for x in row) for row in rows]
+    return "\n".join(["az,el,true_az,true_el", *lines]) + "\n"
+
+
+def off(e, row):
+    """Measured less predicted, sideways and upwards."""
+    azimuth, elevation, a, b = row
+    c, d = pointing(e, azimuth, elevation)
+    return (math.remainder(a - c, 2 * math.pi) * math.cos(b), b - d)
+
+
+def inverse(m):
+    n = len(m)
+    rows = [list(row) + [float(i == k) for k in range(n)] for i, row in enumerate(m)]
+    for i in range(n):
+        best = max(range(i, n), key=lambda k: abs(rows[k][i]))
+        rows[i], rows[best] = rows[best], rows[i]
+        rows[i] = [x / rows[i][i] for x in rows[i]]
+        for k in range(n):
+            if k != i:
+                rows[k] = [x - rows[k][i] * y for x, y in zip(rows[k], rows[i])]
+    return [row[n:] for row in rows]
+
+
+def fitted(rows):
+    """Least squares: the errors, their covariance, the noise of a component and its degrees of freedom."""
+    e, step = dict.fromkeys(ERRORS, 0.0), ARCSEC
+    for _ in range(4):
+        normal, right, squares = [[0.0] * 4 for _ in range(4)], [0.0] * 4, 0.0
+        for row in rows:
+            here = off(e, row)
+            moved = [off(dict(e, **{name: e[name] + step}), row) for name in ERRORS]
+            for component in (0, 1):
+                slope = [(here[component] - own[component]) / step for own in moved]
+                squares += here[component] ** 2
+                for i in range(4):
+                    right[i] += slope[i] * here[component]
+                    for k in range(4):
+                        normal[i][k] += slope[i] * slope[k]
+        root = inverse(normal)
+        e = {name: e[name] + sum(root[i][k] * right[k] for k in range(4)) for i, name in enumerate(ERRORS)}
+    freedom = 2 * len(rows) - 4
+    variance = sum(x * x for row in rows for x in off(e, row)) / freedom
+    return e, [[variance * (root[i][k] + root[k][i]) / 2 for k in range(4)] for i in range(4)], math.sqrt(variance), freedom
 
 
 def rms(e, name, size):
@@ -119,14 +187,14 @@ def main():
             with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
                 file.write(text)
 
-        write("mount.chain", CHAIN)
-        write("study.toml", STUDY)
         for _ in range(asked.calibrations):
             truth = {name: source.gauss(0, 20 * ARCSEC) for name in ERRORS}
             poses = [pose(source) for _ in range(asked.rows)]
-            write("stars.csv", measured(truth, poses, sigma, source))
-            run(program, folder, "calibrate", "study.toml", "--out", "result", "--quiet")
+            found, covariance, noise, freedom = fitted(rows_of(truth, poses, sigma, source))
             region = {name: (min(own), max(own)) for name, own in zip(("azimuth", "elevation"), zip(*poses))}
+            errors = "\n".join(f'{name} = "{found[name]!r} rad"' for name in ERRORS)
+            write("instrument.toml", FILE.format(chain=CHAIN, errors=errors, covariance=covariance, sigma=noise,
+                                                 freedom=float(freedom), **region))
             for kind in counts:
                 for _ in range(asked.checks):
                     now, name = truth, None
@@ -134,8 +202,8 @@ def main():
                         name = source.choice(ERRORS)
                         size = 2 * asked.goal * ARCSEC / (rms(truth, name, ARCSEC) / ARCSEC)
                         now = dict(truth, **{name: truth[name] + source.choice([-1, 1]) * size})
-                    write("ten.csv", measured(now, [inside(source, region) for _ in range(10)], sigma, source))
-                    answer = json.loads(run(program, folder, "verify", "result/instrument.toml", "--data", "ten.csv",
+                    write("ten.csv", table(rows_of(now, [inside(source, region) for _ in range(10)], sigma, source)))
+                    answer = json.loads(run(program, folder, "verify", "instrument.toml", "--data", "ten.csv",
                                             "--goal", f"{asked.goal} arcsec", "--format", "json"))
                     key = f"{answer['verdict']}: {answer['reason']}"
                     counts[kind][key] = counts[kind].get(key, 0) + 1

@@ -66,11 +66,9 @@ fn a_standard_uncertainty_is_that_of_draws() {
             let [a, b, c, d] = [(); 4].map(|()| random.normal());
             let drawn = [0.1 * a, 0.1 * b, 0.1 * c, 0.1 * (0.8 * c + 0.6 * d)];
             let found = shown([0, 1, 2, 3].map(|at: usize| ERRORS[at] + drawn[at]));
-            for axis in 0..2 {
-                let off = (found[axis] - mean[axis]) * 3600.0;
-                sums[axis] += off;
-                squares[axis] += off * off;
-            }
+            let off = [0, 1].map(|axis: usize| (found[axis] - mean[axis]) * 3600.0);
+            sums.iter_mut().zip(off).for_each(|(sum, off)| *sum += off);
+            squares.iter_mut().zip(off).for_each(|(sum, off)| *sum += off * off);
         }
         let count = DRAWS as f64;
         for (axis, names) in [

@@ -28,7 +28,7 @@ pub fn as_text(comparison: &Comparison) -> Screen {
     let (changed, rest) = headline(comparison);
     let style = if comparison.is_changed() { BAD } else { GOOD };
     out.styled([&style, &format_args!("{style:#}")], changed);
-    let _ = write!(out, " {rest}\n\n");
+    let _ = writeln!(out, " {rest}\n");
     for observed in &comparison.observed {
         let _ = writeln!(out, "{}", told(comparison, observed));
     }

@@ -108,9 +108,8 @@ impl Rows {
         let (residual, columns, defined) = foretold(&chain, observations, &values, &covariance.of)?;
         let is_outside = outside(instrument, &chain, watched, observations, &values)?;
         let mut sorted: [Vec<usize>; 3] = Default::default();
-        for row in 0..observations.rows() {
-            let kind = if !defined[row] { 2 } else { usize::from(is_outside[row]) };
-            sorted[kind].push(row);
+        for (row, (is_defined, is_outside)) in defined.iter().zip(&is_outside).enumerate() {
+            sorted[if *is_defined { usize::from(*is_outside) } else { 2 }].push(row);
         }
         let told = |rows: &[usize]| rows.iter().map(|row| observations.row_number(*row)).collect();
         let [inside, outside, undefined] = &sorted;

@@ -24,7 +24,7 @@ pub fn as_text(verified: &Verified) -> Screen {
     };
     out.styled([&style, &format_args!("{style:#}")], headline);
     let sentences = [reasons(verified), rows_left_out(verified)].concat();
-    let _ = write!(out, " {}\n", sentences.join(" "));
+    let _ = writeln!(out, " {}", sentences.join(" "));
     if !matches!(verified.verdict, Verdict::NoRows) {
         let _ = writeln!(out);
         out.append(&table(verified));

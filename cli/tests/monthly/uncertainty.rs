@@ -32,7 +32,7 @@ fn correlated() -> String {
 #[test]
 fn a_standard_uncertainty_is_that_of_draws() {
     let folder = folder("uncertainty", &correlated());
-    let poses = [[10.0, 20.0], [-100.0, 70.0], [150.0, 45.0], [30.0, 85.0]];
+    let poses: [[f64; 2]; 4] = [[10.0, 20.0], [-100.0, 70.0], [150.0, 45.0], [30.0, 85.0]];
     let rows: String = poses.iter().map(|[az, el]| format!("{az},{el}\n")).collect();
     folder.write("new.csv", format!("az,el\n{rows}"));
     let run =

@@ -250,7 +250,7 @@ fn notes(comparison: &Comparison) -> String {
             .to_owned(),
     );
     lines.push(format!(
-        "An unchanged instrument is called changed in {} % of comparisons. The p of a value is corrected for the number of values.",
+        "At most {} % of comparisons call an unchanged instrument changed. The p of each value is corrected for the number of values.",
         100.0 * super::FALSE_ALARM
     ));
     if comparison.files.len() > 2 && comparison.files.iter().any(|(_, date)| date.is_none()) {

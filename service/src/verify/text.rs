@@ -219,7 +219,7 @@ fn notes(verified: &Verified) -> String {
         " The goal is the noise of one observation, as --goal is not given."
     };
     format!(
-        "An unchanged instrument is told to recalibrate in {} % of checks (--false-alarm). \"Would show\" means with a chance of {:.0} %.{goal}\n",
+        "At most {} % of unchanged instruments get RECALIBRATE (--false-alarm). \"Would show\" means with a chance of {:.0} %.{goal}\n",
         100.0 * verified.false_alarm,
         100.0 * policy::POWER
     )

@@ -71,6 +71,15 @@ fn taken(meaning: Option<Meaning>, value: f64, (low, high): (f64, f64)) -> f64 {
     }
 }
 
+/// The values of all symbols with every error zero: where it is decided what is observed at all. Products of two small errors would else make
+/// nearly everything look observed.
+#[must_use]
+pub fn without_errors(chain: &Chain, values: &[f64]) -> Vec<f64> {
+    let mut values = values.to_vec();
+    chain.symbols_of(SymbolKind::Error).for_each(|error| values[error.index()] = 0.0);
+    values
+}
+
 /// Derivatives of what would be observed at poses: a row for each component of each pose, pose by pose, and a column for each of some errors
 /// and constants, at the values of all symbols.
 ///

@@ -8,7 +8,7 @@ use super::File;
 use crate::Instrument;
 use crate::errors_file::FoundOver;
 use crate::refusal::Refusal;
-use crate::sensitivity::{Watched, derivatives};
+use crate::sensitivity::{Watched, derivatives, without_errors};
 
 /// Poses at which it is looked at.
 ///
@@ -218,6 +218,7 @@ pub(super) fn combinations(
     let Some(headings) = &instrument.headings else { return Ok(None) };
     let mut values = headings.chain.nominal_values();
     values[..instrument.values.len()].copy_from_slice(&instrument.values);
+    let values = without_errors(&headings.chain, &values);
     let mut parts: Vec<DMatrix<f64>> = Vec::new();
     for watched in watched(instrument) {
         let Some(poses) = watched.poses(&headings.chain, region, POSES) else { return Ok(None) };

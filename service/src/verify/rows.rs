@@ -6,12 +6,12 @@ use nalgebra::{DMatrix, DVector};
 use observe::{Measure, Observations};
 use study::{Loaded, OpenTable, Plan};
 
-use super::policy::POSES;
+use super::policy::{OBSERVED, POSES};
 use crate::Instrument;
 use crate::apply::Outside;
 use crate::evaluation::{Evaluator, Exactness, Quantity};
 use crate::refusal::Refusal;
-use crate::sensitivity::{Watched, derivatives, stacked};
+use crate::sensitivity::{Watched, derivatives, stacked, without_errors};
 use crate::warn::Warn;
 
 /// Rows with what the instrument knows of them. Errors are counted by what they make of the observable: one unit of a column is the change of
@@ -91,10 +91,12 @@ impl Rows {
         let poses =
             watched.poses(&chain, &instrument.found, POSES).unwrap_or_else(|| observations.poses.bare());
         let all = derivatives(&chain, &poses, &values, &covariance.of)?;
+        let at_zero = derivatives(&chain, &poses, &without_errors(&chain, &values), &covariance.of)?;
         let count = poses.rows() as f64;
+        let is_observed = |at: usize| at_zero.column(at).norm() > OBSERVED * all.column(at).norm();
         let sizes = all.column_iter().map(|column| column.norm() / count.sqrt());
         let moving: Vec<(usize, f64)> =
-            sizes.enumerate().filter(|(_, size)| *size > 0.0).map(|(at, size)| (at, 1.0 / size)).collect();
+            sizes.enumerate().filter(|(at, _)| is_observed(*at)).map(|(at, size)| (at, 1.0 / size)).collect();
         let errors: Vec<(SymbolId, f64)> =
             moving.iter().map(|&(at, size)| (covariance.of[at], size)).collect();
         let scaled = |columns: &DMatrix<f64>| {

@@ -125,9 +125,9 @@ impl Seen {
                 |at: usize| (0..rows).map(|row| covariance[at * count + at][row].max(0.0).sqrt()).collect();
             return (0..count).map(own).collect();
         }
-        let mut columns = vec![Vec::with_capacity(rows); 2];
-        for row in 0..rows {
-            let [x, y, z] = [0, 1, 2].map(|axis: usize| value[axis][row]);
+        let mut columns = [Vec::with_capacity(rows), Vec::with_capacity(rows)];
+        for (row, ((x, y), z)) in value[0].iter().zip(&value[1]).zip(&value[2]).enumerate() {
+            let (x, y, z) = (*x, *y, *z);
             let flat = x.hypot(y);
             let square = flat * flat + z * z;
             // Of atan2(x, y), and of the elevation above the xy plane.
@@ -137,7 +137,7 @@ impl Seen {
                 column.push(along(&gradient, covariance, row) / ARCSEC);
             }
         }
-        columns
+        columns.into()
     }
 
     /// The vector that columns say, as they were read: of length one for a direction.

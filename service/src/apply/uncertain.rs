@@ -55,7 +55,7 @@ impl Uncertain {
         }
         let derivatives = self.evaluator.columns(readings, rows)?;
         let mut all = vec![Vec::with_capacity(rows); shown * shown];
-        for row in 0..rows {
+        (0..rows).for_each(|row| {
             let own =
                 DMatrix::from_fn(shown, count, |at, parameter| derivatives[at * count + parameter][row]);
             let moved = own * &self.root;
@@ -63,7 +63,7 @@ impl Uncertain {
             for (at, column) in all.iter_mut().enumerate() {
                 column.push(covariance[(at / shown, at % shown)]);
             }
-        }
+        });
         Ok(all)
     }
 }

@@ -19,9 +19,12 @@ pub fn require_same(names: [&str; 2], chains: [&Chain; 2]) -> Result<(), Refusal
     }
 }
 
+/// What a chain has, in words.
+type Listed = fn(&Chain) -> Vec<String>;
+
 /// The first difference that matters.
 fn difference(chains: [&Chain; 2]) -> Option<String> {
-    let lists: [(&str, fn(&Chain) -> Vec<String>); 4] = [
+    let lists: [(&str, Listed); 4] = [
         ("joints and inputs", readings),
         ("bodies", bodies),
         ("observables", observables),

@@ -107,7 +107,8 @@ impl Rows {
         let own = DMatrix::from_fn(moving.len(), moving.len(), |a, b| {
             covariance.rows[moving[a].0][moving[b].0] / moving[a].1 / moving[b].1
         });
-        let (residual, columns, defined) = foretold(&chain, observations, &values, &covariance.of)?;
+        let Foretold { residual, columns, defined } =
+            foretold(&chain, observations, &values, &covariance.of)?;
         let is_outside = outside(instrument, &chain, watched, observations, &values)?;
         let mut sorted: [Vec<usize>; 3] = Default::default();
         for (row, (is_defined, is_outside)) in defined.iter().zip(&is_outside).enumerate() {
@@ -157,13 +158,20 @@ fn read_as(plan: &Plan, file: &str, open: &mut OpenTable<'_>) -> Result<(usize, 
     Err(why.map_or_else(|| Refusal::Input("the study names no source".to_owned()), Refusal::of))
 }
 
+/// All rows beside what is foretold of them.
+struct Foretold {
+    residual: DVector<f64>,
+    columns: DMatrix<f64>,
+    defined: Vec<bool>,
+}
+
 /// Residuals and derivatives of all rows, and whether the chain has a value there.
 fn foretold(
     chain: &Chain,
     observations: &Observations,
     values: &[f64],
     by: &[SymbolId],
-) -> Result<(DVector<f64>, DMatrix<f64>, Vec<bool>), Refusal> {
+) -> Result<Foretold, Refusal> {
     let model = Model::new(chain, &observations.poses, by).map_err(Refusal::of)?;
     let blocks = model.map_blocks(observations, values, |_, _, block| {
         let columns: Vec<Vec<f64>> = block.columns().map(|column| block.by_row(column)).collect();
@@ -176,7 +184,7 @@ fn foretold(
         defined.extend(rows);
     }
     let columns = stacked(&model, &columns, residual.len());
-    Ok((DVector::from_vec(residual), columns, defined))
+    Ok(Foretold { residual: DVector::from_vec(residual), columns, defined })
 }
 
 /// Whether each row is outside of the measured region.

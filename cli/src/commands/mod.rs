@@ -6,6 +6,7 @@ pub mod budget;
 pub mod calibrate;
 pub mod check;
 mod class;
+mod compare;
 mod completions;
 pub mod derive;
 mod eval;
@@ -14,6 +15,7 @@ pub mod identify;
 mod init;
 mod manual;
 pub mod simulate;
+mod verify;
 
 use crate::failure::Failure;
 
@@ -69,6 +71,8 @@ commands! {
     Eval => eval,
     Calibrate => calibrate,
     Apply => apply,
+    Compare => compare,
+    Verify => verify,
     Class => class,
     Completions => completions,
     Manual => manual,

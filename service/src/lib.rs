@@ -8,6 +8,7 @@ pub mod budget;
 pub mod calibrating;
 pub mod errors_file;
 pub mod evaluation;
+pub mod export;
 pub mod instrument;
 pub mod over_memory;
 pub mod readings;

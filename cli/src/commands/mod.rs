@@ -9,6 +9,7 @@ mod class;
 mod completions;
 pub mod derive;
 mod eval;
+mod export;
 pub mod generate;
 pub mod identify;
 mod init;
@@ -69,6 +70,7 @@ commands! {
     Eval => eval,
     Calibrate => calibrate,
     Apply => apply,
+    Export => export,
     Class => class,
     Completions => completions,
     Manual => manual,

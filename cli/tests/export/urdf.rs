@@ -1,5 +1,7 @@
 //! A robot's URDF: made a declaration by `init`, calibrated, and written back with other origins.
 
+use std::array::from_fn;
+
 use crate::support::Folder;
 use crate::{instrument, said};
 
@@ -54,14 +56,8 @@ fn folder(name: &str) -> Folder {
 type Place = ([[f64; 3]; 3], [f64; 3]);
 
 fn times(a: &Place, b: &Place) -> Place {
-    let mut turned = [[0.0; 3]; 3];
-    let mut shift = a.1;
-    for row in 0..3 {
-        for column in 0..3 {
-            turned[row][column] = (0..3).map(|at| a.0[row][at] * b.0[at][column]).sum();
-        }
-        shift[row] += (0..3).map(|at| a.0[row][at] * b.1[at]).sum::<f64>();
-    }
+    let turned = from_fn(|row| from_fn(|column| (0..3).map(|at| a.0[row][at] * b.0[at][column]).sum()));
+    let shift = from_fn(|row| a.1[row] + (0..3).map(|at| a.0[row][at] * b.1[at]).sum::<f64>());
     (turned, shift)
 }
 
@@ -69,15 +65,11 @@ fn times(a: &Place, b: &Place) -> Place {
 fn turn(axis: [f64; 3], angle: f64) -> Place {
     let (sine, cosine) = angle.sin_cos();
     let cross = [[0.0, -axis[2], axis[1]], [axis[2], 0.0, -axis[0]], [-axis[1], axis[0], 0.0]];
-    let mut turned = [[0.0; 3]; 3];
-    for row in 0..3 {
-        for column in 0..3 {
-            let same = if row == column { cosine } else { 0.0 };
-            turned[row][column] =
-                same + sine * cross[row][column] + (1.0 - cosine) * axis[row] * axis[column];
-        }
-    }
-    (turned, [0.0; 3])
+    let entry = |row: usize, column: usize| {
+        let same = if row == column { cosine } else { 0.0 };
+        same + sine * cross[row][column] + (1.0 - cosine) * axis[row] * axis[column]
+    };
+    (from_fn(|row| from_fn(|column| entry(row, column))), [0.0; 3])
 }
 
 /// The origin of a joint, as its text says it.

@@ -39,6 +39,7 @@ mod settle;
 mod setups;
 mod shape;
 mod small;
+mod subset;
 mod unpack;
 mod weigh;
 

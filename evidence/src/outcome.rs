@@ -155,24 +155,38 @@ impl<'a> Outcome<'a> {
     /// The name of a family: law, driver, place.
     #[must_use]
     pub fn name(&self, family: usize) -> String {
-        let (family, problem) = (&self.families()[family], self.run.bench.problem);
-        let joint = |joint: usize| problem.rows.joints[joint].name.as_str();
-        let driver = match family.driver {
+        let law = match self.families()[family].law {
+            Law::Offered(number) => return self.run.bench.problem.offered[number].name.clone(),
+            law => self::law(law),
+        };
+        format!("{law}|{}|{}", self.driver(family), self.place(family))
+    }
+
+    /// What a family is a function of: `azimuth`; empty of a constant.
+    #[must_use]
+    pub fn driver(&self, family: usize) -> String {
+        let rows = &self.run.bench.problem.rows;
+        let joint = |joint: usize| rows.joints[joint].name.as_str();
+        match self.families()[family].driver {
             Driver::Nothing => String::new(),
             Driver::Joint(only) => joint(only).to_owned(),
             Driver::Joints(first, second) => format!("{}&{}", joint(first), joint(second)),
-            Driver::Input(input) => problem.rows.inputs[input].name.clone(),
+            Driver::Input(input) => rows.inputs[input].name.clone(),
             Driver::Gravity => "gravity".to_owned(),
             Driver::Order => "order".to_owned(),
-        };
-        let place = match family.place {
-            Where::Place(place) => problem.places[self.run.bench.places.distinct[place].place].name.clone(),
-            Where::Tilts(frame) => format!("{}.tilt", problem.frames[frame].name),
-        };
-        if let Law::Offered(number) = family.law {
-            return problem.offered[number].name.clone();
         }
-        format!("{}|{driver}|{place}", law(family.law))
+    }
+
+    /// Where a family acts: `fork.Rx`, or `fork.tilt` of both.
+    #[must_use]
+    pub fn place(&self, family: usize) -> String {
+        let (bench, family) = (&self.run.bench, &self.families()[family]);
+        let problem = bench.problem;
+        match (family.law, family.place) {
+            (Law::Offered(number), _) => problem.places[problem.offered[number].place].name.clone(),
+            (_, Where::Place(place)) => problem.places[bench.places.distinct[place].place].name.clone(),
+            (_, Where::Tilts(frame)) => format!("{}.tilt", problem.frames[frame].name),
+        }
     }
 
     /// Numbers in the problem of the places that a family's place stands for; empty for both tilts of a frame.

@@ -24,7 +24,7 @@ pub use json::{NotJson, json};
 pub use page::{excerpt, page};
 pub use residuals::{Cells, rows_written, table};
 pub use shell::shell_word;
-pub use text::{Layout, as_text, diff};
+pub use text::{Layout, as_text, diff, why};
 
 /// A calibration and what it was made from.
 pub struct Reported<'a> {

@@ -60,6 +60,29 @@ pub fn as_text(reported: &Reported<'_>, layout: Layout) -> Screen {
     page.text
 }
 
+/// Hypotheses that one answer explains.
+const EXPLAINED: usize = 12;
+
+/// Why suspected causes whose names hold the words of `name` are, or are not, told; `None` where no explanation of the contest is called so.
+#[must_use]
+pub fn why(diagnosis: &Diagnosis, name: &str, layout: Layout) -> Option<Screen> {
+    let mut page = Page { text: Screen::default(), layout };
+    let called = words::contest::called(diagnosis, name);
+    page.heading("Why, or why not");
+    if diagnosis.contest.is_empty() {
+        page.say("  ", words::contest::NONE_HELD);
+        return Some(page.text);
+    }
+    for own in called.iter().take(EXPLAINED) {
+        page.say("  - ", &words::contest::why(own, diagnosis));
+    }
+    if called.len() > EXPLAINED {
+        page.say("  - ", &format!("and {} more of this name", called.len() - EXPLAINED));
+    }
+    page.say("  ", words::contest::MEANING);
+    (!called.is_empty()).then_some(page.text)
+}
+
 /// The difference between the declaration and the amended one, as a unified diff; empty if there is none.
 #[must_use]
 pub fn diff(reported: &Reported<'_>) -> String {

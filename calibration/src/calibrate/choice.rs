@@ -9,6 +9,7 @@ use super::confirm::{Judged, judged};
 use super::functions::{MOST, Settled, Winner, settled};
 use super::heard::{Places, are_any, heard};
 use super::whole_objects::are_cut_across;
+use crate::contest::Hypothesis;
 use crate::diagnose::Rms;
 use crate::diagnose::rms::share;
 use crate::search::SearchError;
@@ -55,6 +56,15 @@ pub(super) struct Chosen<'a> {
     pub judged: Judged<'a>,
     /// Functions that explain the data about as well as accepted effects.
     pub as_good: Vec<AsGood>,
+    /// Who competed, where a contest was held.
+    pub contest: Vec<Hypothesis>,
+}
+
+impl<'a> Chosen<'a> {
+    /// Where no function competes.
+    pub fn of(whole: Context<'a>, judged: Judged<'a>) -> Self {
+        Self { whole, judged, as_good: Vec::new(), contest: Vec::new() }
+    }
 }
 
 /// Lets the library compete, and takes up what wins as the study says; by default if it is confirmed.
@@ -88,7 +98,7 @@ fn judge<'a>(settled: Settled<'a>, before: &FitResult) -> Result<Chosen<'a>, Sea
     let Settled { whole, round, as_good, .. } = settled;
     let judged = judged(&whole, before, round)?;
     let as_good = if judged.left_out.is_empty() { as_good } else { Vec::new() };
-    Ok(Chosen { whole, judged, as_good })
+    Ok(Chosen { as_good, ..Chosen::of(whole, judged) })
 }
 
 /// Whether the model with functions predicts better: in random folds by a margin, and no worse in regions that its search did

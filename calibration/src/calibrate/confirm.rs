@@ -11,7 +11,7 @@ use crate::diagnose::rms::{BeforeAfter, Worse, worse};
 use crate::search::context::{Context, Found};
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
-use crate::search::{HeldOut, SearchError, Stage, nested};
+use crate::search::{HeldOut, SearchError, Stage};
 use fit::FitResult;
 
 /// Fewer observations than this are no evidence of an effect.
@@ -42,7 +42,7 @@ pub(super) fn judged<'a>(
     if round.fitted.found.is_empty() && !left_out.is_empty() {
         return of_declaration(whole, before, round, left_out);
     }
-    let held_out = nested(&round.search.problem, &round.sets, &whole.options);
+    let held_out = round.held_out(whole);
     let rms = figures(whole, before, &round, &held_out)?;
     let Some(refused) =
         refused(whole, &round, &rms).filter(|_| !is_confirmed_by_places(whole, &round, &held_out))
@@ -105,7 +105,7 @@ fn without_few<'a>(
         let kept = round.fitted.found.iter().zip(&cautions).filter(|(_, caution)| caution.is_none());
         let enough: Vec<Found> = kept.map(|(found, _)| found.clone()).collect();
         left_out.extend(cautions.into_iter().flatten());
-        round = Round::at(whole, Fitted::with(whole, enough, &round.fitted)?)?;
+        round = round.next(whole, Fitted::with(whole, enough, &round.fitted)?)?;
     }
 }
 

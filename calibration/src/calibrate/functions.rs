@@ -83,13 +83,14 @@ pub(super) fn settled<'a>(
             .kept
             .iter()
             .filter_map(|&kept| {
-                let Found { effect, p_value, alike } = &settled.round.fitted.found[kept];
+                let Found { effect, p_value, alike, .. } = &settled.round.fitted.found[kept];
                 let alike = alike.iter().filter_map(|&effect| numbered(effect)).collect();
-                Some(Found { effect: numbered(*effect)?, p_value: *p_value, alike })
+                Some(Found { effect: numbered(*effect)?, p_value: *p_value, alike, shares: Vec::new() })
             })
             .collect();
         let Some(own) = next.catalogue.iter().position(|effect| effect.name == name) else { break };
-        found.push(Found { effect: EffectId(own), p_value: taken.p_value, alike: vec![EffectId(own)] });
+        let effect = EffectId(own);
+        found.push(Found { effect, p_value: taken.p_value, alike: vec![effect], shares: Vec::new() });
         let fitted = Fitted::with(&next, found, &settled.round.fitted)?;
         if matches!(fitted.fit.outcome, Outcome::NotConverged { .. }) {
             break;

@@ -164,8 +164,8 @@ pub fn calibrate_telling(
     let round = Round::at(&whole, first)?;
     // What rounding leaves has a structure of its own; there is nothing to search in it.
     let is_rounding = rounding(request.observations, &before).is_some();
-    let Chosen { whole, judged, as_good } = if is_rounding {
-        Chosen { judged: judged(&whole, &before, round)?, whole, as_good: Vec::new() }
+    let Chosen { whole, judged, as_good, contest } = if is_rounding {
+        Chosen::of(whole.clone(), judged(&whole, &before, round)?)
     } else {
         let found = searched(&whole, &before, round, &loops[0])?;
         match stretches::grouped(whole, &found, &by_stretch)? {
@@ -178,7 +178,7 @@ pub fn calibrate_telling(
     };
     let Judged { round, held_out, rms, left_out } = judged;
     let confirmed = Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, left_out };
-    let diagnosis = diagnose(&whole, &before, &round.fitted, Ok(confirmed))?;
+    let diagnosis = Diagnosis { contest, ..diagnose(&whole, &before, &round.fitted, Ok(confirmed))? };
     let drawn = Shown::of(request.observations, &round.fitted.fit, DRAWN).rows;
     let traces = trace::traces(&whole, &round, &drawn)?;
     let mut chain = round.fitted.chain;
@@ -213,21 +213,25 @@ fn searched<'a>(
     first: Round<'a>,
     own: &'a Loop,
 ) -> Result<Chosen<'a>, CalibrateError> {
-    let weighed = weighed::weighed(whole, &first)?;
-    let round = outliers::reconsidered(whole, rounds(whole, first)?)?;
-    let (whole, round, left_out) = match &weighed {
-        None => (whole.clone(), round, None),
-        Some(told) => weighed::settled(whole.clone(), &own.remembering, round, told)?,
+    let Some(told) = weighed::weighed(whole, &first)? else {
+        let round = outliers::reconsidered(whole, rounds(whole, first)?)?;
+        let (whole, round) = memory::settled(whole.clone(), &own.remembering, round)?;
+        return Ok(chosen(&whole, before, round, &own.studies)?);
     };
+    if let Some((round, contest)) = weighed::explained(whole, &first, &told)? {
+        return Ok(Chosen { contest, ..Chosen::of(whole.clone(), judged(whole, before, round)?) });
+    }
+    let round = outliers::reconsidered(whole, rounds(whole, first)?)?;
+    let (whole, round, left_out) = weighed::settled(whole.clone(), &own.remembering, round, &told)?;
+    let contest = told.contest;
     let Some(left_out) = left_out else {
         let (whole, round) = memory::settled(whole, &own.remembering, round)?;
-        return Ok(chosen(&whole, before, round, &own.studies)?);
+        return Ok(Chosen { contest, ..chosen(&whole, before, round, &own.studies)? });
     };
     let mut judged = judged(&whole, before, round)?;
     judged.left_out.push(left_out);
-    Ok(Chosen { whole, judged, as_good: Vec::new() })
+    Ok(Chosen { contest, ..Chosen::of(whole, judged) })
 }
-
 /// What a first fit that cannot be gone on with comes to.
 fn unusable(
     whole: &Context<'_>,

@@ -1,16 +1,21 @@
-//! What was found, weighed against what hangs together along the rows: the contest says whether there is any cause.
+//! What the contest says: which causes there are, where the catalogue's explain all that there is; and whether there is any, weighed
+//! against what hangs together along the rows.
 
 use std::cell::OnceCell;
+use std::sync::Arc;
 
 use super::memory::remembering;
-use super::rounds::taken_up;
-use crate::contest::{Told, is_asked, told};
+use super::rounds::{names, taken_up};
+use crate::contest::{Contest, Hypothesis, Told, is_asked};
 use crate::diagnose::Caution;
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
 use crate::search::{SearchError, Stage};
 use study::Plan;
+
+/// Fits with the contest's causes at which it is asked again, at most.
+const POINTS: usize = 3;
 
 /// What the contest leaves of a search: the calibration, its last round, and what is said of effects that were left out again.
 type Left<'a> = (Context<'a>, Round<'a>, Option<Caution>);
@@ -24,7 +29,42 @@ pub(super) fn weighed(whole: &Context<'_>, first: &Round<'_>) -> Result<Option<T
         return Ok(None);
     }
     (whole.tell)(Stage::Weigh);
-    told(whole, &first.fitted)
+    Ok(Contest::at(whole, &first.fitted)?.told(whole))
+}
+
+/// The round with the contest's causes in the exact chain, where they explain all that there is. With them the contest is asked again: what
+/// is left by large effects to first order is no other cause. `None` where it finds no end.
+pub(super) fn explained<'a>(
+    whole: &Context<'a>,
+    first: &Round<'a>,
+    told: &Told,
+) -> Result<Option<(Round<'a>, Vec<Hypothesis>)>, SearchError> {
+    let search = &whole.request.plan.search;
+    let mut told = told.clone();
+    let mut last = None;
+    for _ in 0..POINTS {
+        let asks_for_more = search.functions == Some(true) || told.causes.len() > search.most;
+        if !told.explains() || asks_for_more {
+            return Ok(None);
+        }
+        let from = last.as_ref().unwrap_or(first);
+        let Some(mut next) = taken_up(whole, told.causes.clone(), from)? else { return Ok(None) };
+        let contest = Contest::at(whole, &next.fitted)?;
+        let Some(again) = contest.told(whole) else { return Ok(None) };
+        if names(&again.causes) == names(&next.fitted.found) {
+            if !again.explains() {
+                return Ok(None);
+            }
+            for found in &mut next.fitted.found {
+                let as_told = again.causes.iter().find(|told| told.effect == found.effect);
+                as_told.into_iter().for_each(|told| found.clone_from(told));
+            }
+            return Ok(Some((next.explained_by(Arc::new(contest)), again.contest)));
+        }
+        told = again;
+        last = Some(next);
+    }
+    Ok(None)
 }
 
 /// The last round as the contest leaves it: without effects where it tells none, with its causes where the search found none.

@@ -1,25 +1,30 @@
-//! Whether anything is told at all: the catalogue's effects and open functions against set-ups, wandering and a memory of the noise, by one likelihood.
+//! What explains a residual: the catalogue's effects and open functions against set-ups, wandering and a memory of the noise, by one likelihood.
 //!
 //! A search that takes rows for independent finds effects in whatever hangs together along the rows: sessions that were levelled
-//! anew, a slow drift. The contest of [`evidence`] weighs both. Where it tells no cause, none is told. Where the search found
-//! nothing, since the noise took what an effect does, the causes that the contest tells are taken up.
+//! anew, a slow drift. The contest of [`evidence`] weighs both. Where effects of the catalogue explain all that there is, it decides
+//! which. Where it tells no cause, none is told.
 
 mod problem;
+mod recorded;
+
+pub use recorded::Hypothesis;
 
 use evidence::families::Law;
-use evidence::{Policy, contest};
+use evidence::{Outcome, Policy, Problem, contest};
 
 use crate::search::SearchError;
 use crate::search::context::{Context, Found};
 use crate::search::fitted::Fitted;
+use crate::search::round::Explains;
+use effects::candidate::EffectId;
 use problem::Asked;
 use study::Undeclared;
 
 /// Values that a contest reads at most: its time grows with them.
 const MOST_VALUES: usize = 4_000;
 
-/// Log odds below which two causes are one to the data.
-const EVEN: f64 = 0.05;
+/// The rate of false alarms at which the margin of the policy was measured.
+const MEASURED_AT: f64 = 0.05;
 
 /// What a contest tells.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -28,12 +33,16 @@ pub(crate) struct Told {
     pub causes: Vec<Found>,
     /// Whether a function is told that the catalogue has no name for.
     pub is_open: bool,
+    /// Whether more may be there than a contest takes up.
+    pub is_full: bool,
     /// Whether rows remember the row before, or wander along their order.
     pub remembers: bool,
     /// Set-ups that the rows fall into; one where they show no more.
     pub setups: usize,
     /// A column that the study does not name, whose values say which rows belong together.
     pub column: Option<String>,
+    /// Who competed.
+    pub contest: Vec<Hypothesis>,
 }
 
 impl Told {
@@ -45,6 +54,11 @@ impl Told {
     /// Whether rows hang together along their order, or by a column.
     pub fn hangs_together(&self) -> bool {
         self.remembers || self.setups > 1 || self.column.is_some()
+    }
+
+    /// Whether causes that the catalogue has a name for explain all that there is.
+    pub fn explains(&self) -> bool {
+        !self.causes.is_empty() && !self.is_open && !self.is_full && !self.hangs_together()
     }
 }
 
@@ -59,56 +73,92 @@ pub(crate) fn is_asked(whole: &Context<'_>) -> bool {
         && plan.search.only.is_empty()
 }
 
-/// What a contest at a fit tells; `None` where there is nothing to weigh: no residual, or no freedom.
-///
-/// A column of the file that the study does not name may say which rows belong together. Where a cause is told, each is asked
-/// whether its values explain the rows better.
-pub(crate) fn told(whole: &Context<'_>, fitted: &Fitted) -> Result<Option<Told>, SearchError> {
-    let mut asked = problem::asked(whole, fitted)?;
-    let Some((mut odds, mut best)) = of(&asked) else { return Ok(None) };
-    if best.is_nothing() {
-        return Ok(Some(best));
-    }
-    let sample = whole.request.sample;
-    let undeclared = sample.map_or_else(Vec::new, |sample| sample.undeclared(whole.request.observations));
-    let price = (undeclared.len() as f64).ln();
-    for Undeclared { column, of_row } in undeclared {
-        asked.problem.rows.labels = Some(of_row);
-        if let Some((other, told)) = of(&asked).filter(|(other, _)| other - price > odds) {
-            odds = other - price;
-            best = Told { column: Some(column), ..told };
-        }
-    }
-    Ok(Some(best))
+/// A contest at a fit.
+pub(crate) struct Contest {
+    asked: Asked,
+    policy: Policy,
 }
 
-/// What one contest tells, and its log odds.
-fn of(asked: &Asked) -> Option<(f64, Told)> {
-    let policy = Policy::default();
-    let outcome = contest(&asked.problem, &policy, None).ok()?;
-    let effect = |family: usize| match outcome.families()[family].law {
-        Law::Offered(number) => Some(asked.effects[number]),
-        _ => None,
-    };
-    let named = outcome.findings().iter().filter(|finding| finding.named);
-    let mut told = Told {
-        remembers: outcome.memory().is_some() || !outcome.noise().is_empty(),
-        setups: outcome.cuts().len() + 1,
-        ..Told::default()
-    };
-    for finding in named {
-        let offered = || finding.set.iter().filter_map(|&(family, score)| Some((effect(family)?, score)));
-        let best = offered().map(|(_, score)| score).fold(f64::NEG_INFINITY, f64::max);
-        // Of causes that are one to the data the first of the catalogue stands for all.
-        let even = offered().filter(|(_, score)| *score >= best - EVEN);
-        let Some(first) = even.map(|(effect, _)| effect).min() else {
-            told.is_open = true;
-            continue;
-        };
-        let p_value = (-finding.margin).exp().min(1.0);
-        if told.causes.iter().all(|found| found.effect != first) {
-            told.causes.push(Found { effect: first, p_value, alike: vec![first] });
-        }
+impl Contest {
+    /// At a fit of the declaration, or of the declaration with effects.
+    pub fn at(whole: &Context<'_>, fitted: &Fitted) -> Result<Self, SearchError> {
+        let mut policy = Policy::default();
+        // False alarms fall as odds rise, by as much at least.
+        policy.name_margin += (MEASURED_AT / whole.options.false_alarm).ln().max(0.0);
+        Ok(Self { asked: problem::asked(whole, fitted)?, policy })
     }
-    Some((outcome.odds(), told))
+
+    /// What it tells; `None` where there is nothing to weigh: no residual, or no freedom.
+    ///
+    /// A column of the file that the study does not name may say which rows belong together. Where a cause is told, each is asked
+    /// whether its values explain the rows better.
+    pub fn told(&self, whole: &Context<'_>) -> Option<Told> {
+        let outcome = self.of(&self.asked.problem)?;
+        let (mut odds, mut best) = (outcome.odds(), self.read(&outcome));
+        best.contest = recorded::recorded(&outcome);
+        if best.is_nothing() {
+            return Some(best);
+        }
+        let sample = whole.request.sample;
+        let undeclared = sample.map_or_else(Vec::new, |sample| sample.undeclared(whole.request.observations));
+        let price = (undeclared.len() as f64).ln();
+        for Undeclared { column, of_row } in undeclared {
+            let mut labelled = self.asked.problem.clone();
+            labelled.rows.labels = Some(of_row);
+            if let Some(other) = self.of(&labelled).filter(|other| other.odds() - price > odds) {
+                odds = other.odds() - price;
+                best =
+                    Told { column: Some(column), contest: recorded::recorded(&other), ..self.read(&other) };
+            }
+        }
+        Some(best)
+    }
+
+    fn of<'p>(&'p self, problem: &'p Problem) -> Option<Outcome<'p>> {
+        contest(problem, &self.policy, None).ok()
+    }
+
+    /// What an outcome tells.
+    fn read(&self, outcome: &Outcome<'_>) -> Told {
+        let law = |family: usize| outcome.families()[family].law;
+        let effect = |family: usize| match law(family) {
+            Law::Offered(number) => Some(self.asked.effects[number]),
+            _ => None,
+        };
+        let noise = outcome.noise();
+        let is_stretched = noise.iter().any(|&family| matches!(law(family), Law::Setups(_)));
+        let mut told = Told {
+            is_full: outcome.active().len() as f64 >= self.policy.most_active,
+            remembers: outcome.memory().is_some() || !noise.is_empty(),
+            setups: if is_stretched { outcome.cuts().len() + 1 } else { 1 },
+            ..Told::default()
+        };
+        for finding in outcome.findings().iter().filter(|finding| finding.named) {
+            let shares = finding.set.iter().zip(&finding.shares);
+            let offered: Vec<(EffectId, f64, f64)> = shares
+                .filter_map(|(&(family, score), &share)| Some((effect(family)?, score, share)))
+                .collect();
+            let best = offered.iter().map(|(_, score, _)| *score).fold(f64::NEG_INFINITY, f64::max);
+            // Of causes that are one to the data the first of the catalogue stands for all.
+            let even = offered.iter().filter(|(_, score, _)| *score >= best - self.policy.even);
+            let Some(first) = even.map(|(effect, ..)| *effect).min() else {
+                told.is_open = true;
+                continue;
+            };
+            let p_value = (-finding.margin).exp().min(1.0);
+            if told.causes.iter().all(|found| found.effect != first) {
+                let shares = offered.iter().map(|(effect, _, share)| (*effect, *share)).collect();
+                told.causes.push(Found { effect: first, p_value, alike: vec![first], shares });
+            }
+        }
+        told
+    }
+}
+
+impl Explains for Contest {
+    fn of_rows(&self, keeps: &(dyn Fn(usize) -> bool + Sync)) -> Vec<EffectId> {
+        let some = self.asked.problem.of_rows(keeps);
+        let told = self.of(&some).map(|outcome| self.read(&outcome));
+        told.map_or_else(Vec::new, |told| told.causes.iter().map(|found| found.effect).collect())
+    }
 }

@@ -23,12 +23,14 @@ pub(super) struct Asked {
     pub effects: Vec<EffectId>,
 }
 
-/// The problem at a fit of the declaration without effects.
+/// The problem at a fit: what its effects explain counts as not yet explained.
 pub(super) fn asked(whole: &Context<'_>, fitted: &Fitted) -> Result<Asked, SearchError> {
     let (chain, observations) = (&fitted.chain, whole.request.observations);
     let poses = &observations.poses;
     let columns = fitted.probed.columns(observations)?;
     let of_effects = columns.of_effects(chain, &whole.catalogue, poses, &fitted.fit.values);
+    let mut residual = columns.residual.clone();
+    fitted.put_back(&mut residual, |effect| of_effects[effect.0].iter().map(Vec::as_slice));
 
     let all = places(&whole.catalogue);
     let nominal = Probed::new(chain, poses, declared(whole), &chain.nominal_values(), &all)?;
@@ -52,8 +54,8 @@ pub(super) fn asked(whole: &Context<'_>, fitted: &Fitted) -> Result<Asked, Searc
         column: columns.declared.col_as_slice(at).to_vec(),
     });
     let mut problem = Problem {
-        components: columns.residual.len() / poses.rows().max(1),
-        residual: columns.residual.clone(),
+        components: residual.len() / poses.rows().max(1),
+        residual,
         sigma: sigma(whole),
         declared: estimates.collect(),
         frames: building.frames(),

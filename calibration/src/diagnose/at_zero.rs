@@ -1,20 +1,29 @@
 //! Errors that stand for zero of an input from which the data lie far: `index` beside `drift*temperature` is the index at 0 degrees. And
 //! errors beside a function that was found at their place: they stand for where it is zero.
 
+use faer::Mat;
+use faer::linalg::solvers::SolveLstsq;
 use model_core::algebra::Poly;
 use model_core::{Chain, Role, SymbolId, SymbolKind};
 use serde::Serialize;
 
 use super::units::of_reading;
+use crate::search::columns::Columns;
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 use effects::candidate::{Effect, Place, Setting};
 use effects::families::SHAPE;
-use fit::FitResult;
+use fit::{FitError, FitResult};
 use observe::{Observations, SiUnit};
 
 /// Standard deviations of an input that its mean is from zero where the data lie far from there.
 const FAR: f64 = 3.0;
+
+/// What may be left of a constant, over its size, where the errors move all that it moves.
+const SAME: f64 = 1e-3;
+
+/// Rows that say what an error moves, at most.
+const ENOUGH: usize = 2_000;
 
 /// Errors whose values are those at zero of an input, and where the data lie.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -67,13 +76,11 @@ pub(super) fn at_zero(
     chain: &Chain,
     observations: &Observations,
     fit: &FitResult,
-) -> Vec<AtZero> {
-    let inputs = observations.poses.columns.iter();
-    let inputs = inputs.filter(|(id, _)| chain.symbol(*id).kind == SymbolKind::Input);
-    let of_input = |(id, values): &(SymbolId, Vec<f64>)| {
-        let errors = beside(chain, fit, *id);
-        if errors.is_empty() {
-            return None;
+) -> Result<Vec<AtZero>, FitError> {
+    let mut all = Vec::new();
+    for (id, values) in &observations.poses.columns {
+        if chain.symbol(*id).kind != SymbolKind::Input {
+            continue;
         }
         let counted = values.iter().zip(&fit.residuals.weight).filter(|(_, weight)| **weight > 0.0);
         let counted: Vec<f64> = counted.map(|(value, _)| *value).collect();
@@ -81,38 +88,62 @@ pub(super) fn at_zero(
         let mean = counted.iter().sum::<f64>() / rows;
         let variance = counted.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / rows;
         let is_far = mean.abs() > FAR * variance.sqrt();
-        let from = counted.iter().copied().fold(f64::INFINITY, f64::min);
-        let to = counted.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let symbol = chain.symbol(*id);
-        let (input, unit) = (symbol.name.clone(), of_reading(setting, chain, *id));
-        is_far.then_some(AtZero { errors, input, from, to, unit })
-    };
-    inputs.filter_map(of_input).collect()
+        let errors = if is_far { moved(chain, observations, fit, *id, mean)? } else { Vec::new() };
+        if !errors.is_empty() {
+            let from = counted.iter().copied().fold(f64::INFINITY, f64::min);
+            let to = counted.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let (input, unit) = (chain.symbol(*id).name.clone(), of_reading(setting, chain, *id));
+            all.push(AtZero { errors, input, from, to, unit });
+        }
+    }
+    Ok(all)
 }
 
-/// The errors that the data tell apart and that move what another error times the input moves.
-fn beside(chain: &Chain, fit: &FitResult, input: SymbolId) -> Vec<String> {
-    let told = fit.parameters.iter().zip(&fit.separable);
-    let told: Vec<SymbolId> = told.filter(|(_, separable)| **separable).map(|(id, _)| *id).collect();
-    let mut names = Vec::new();
-    for body in &chain.bodies {
-        for factor in &body.factors {
-            let at_place = body.factors.iter().filter(|other| {
-                (other.role, other.kind, other.axis) == (factor.role, factor.kind, factor.axis)
-            });
-            let columns: Vec<Poly> = at_place
-                .flat_map(|other| told.iter().map(|&error| other.amount.derivative(error)))
-                .filter(|column| !column.is_zero())
-                .collect();
-            let input = Poly::symbol(input);
-            for &error in &told {
-                let own = factor.amount.derivative(error);
-                let name = &chain.symbol(error).name;
-                if !own.is_zero() && columns.contains(&(&own * &input)) && !names.contains(name) {
-                    names.push(name.clone());
-                }
+/// The errors that the data tell apart and that would come out otherwise, by more than their standard uncertainty, if what is in proportion
+/// to the input counted from its mean: what the input moves at a constant value, they move too.
+fn moved(
+    chain: &Chain,
+    observations: &Observations,
+    fit: &FitResult,
+    input: SymbolId,
+    mean: f64,
+) -> Result<Vec<String>, FitError> {
+    let is_in_proportion = |id: SymbolId| {
+        let mut factors = chain.bodies.iter().flat_map(|body| &body.factors);
+        factors.any(|factor| {
+            let own = factor.amount.derivative(id);
+            let rest = own.derivative(input);
+            !own.is_zero() && &rest * &Poly::symbol(input) == own
+        })
+    };
+    let (follow, stay): (Vec<usize>, Vec<usize>) =
+        (0..fit.parameters.len()).partition(|&at| is_in_proportion(fit.parameters[at]));
+    let told: Vec<usize> = stay.into_iter().filter(|&at| fit.separable[at]).collect();
+    if follow.is_empty() || told.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut at_one =
+        if observations.rows() > ENOUGH { observations.sample(ENOUGH) } else { observations.clone() };
+    for (_, values) in at_one.poses.columns.iter_mut().filter(|(id, _)| *id == input) {
+        values.fill(1.0);
+    }
+    let columns = Columns::at(chain, &at_one, &fit.parameters, &fit.values, &[])?.declared;
+    let column = |at: usize| (columns.col_as_slice(at), columns.col(at).norm_l2());
+    let mut shifts = vec![0.0; told.len()];
+    for at in follow {
+        let (constant, length) = column(at);
+        let beside = Mat::from_fn(constant.len(), told.len(), |row, own| {
+            column(told[own]).0[row] / column(told[own]).1
+        });
+        let share = beside.qr().solve_lstsq(Mat::from_fn(constant.len(), 1, |row, _| constant[row]));
+        let left = Mat::from_fn(constant.len(), 1, |row, _| constant[row]) - &beside * &share;
+        if left.norm_l2() <= SAME * length {
+            for (own, shift) in shifts.iter_mut().enumerate() {
+                *shift +=
+                    fit.values[fit.parameters[at].index()] * mean * share[(own, 0)] / column(told[own]).1;
             }
         }
     }
-    names
+    let moved = told.iter().zip(shifts).filter(|&(&at, shift)| shift.powi(2) > fit.covariance[(at, at)]);
+    Ok(moved.map(|(&at, _)| chain.symbol(fit.parameters[at]).name.clone()).collect())
 }

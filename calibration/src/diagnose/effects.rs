@@ -10,11 +10,11 @@ use super::detectability;
 use super::rms::BeforeAfter;
 use super::rms::observables_of;
 use super::units::unit_of;
-use crate::search::context::Context;
+use crate::search::context::{Context, Found};
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
 use crate::search::state::State;
-use crate::search::{AS_GOOD, CompetingModel, SetColumns, competing_models};
+use crate::search::{AS_GOOD, CompetingModel, SetColumns, SetId, competing_models};
 use effects::candidate::{Dependence, Effect, EffectId};
 use effects::families::{FAMILIES, SHAPE};
 use observe::SiUnit;
@@ -102,6 +102,9 @@ pub struct Cause {
     pub body: String,
     /// How it stands to what was accepted.
     pub relation: Relation,
+    /// Its share of the posterior among the causes that fit; absent where no contest weighed them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub share: Option<f64>,
     /// What other fields call it.
     pub published: Vec<String>,
     /// What usually causes it.
@@ -163,8 +166,17 @@ pub(super) fn others(last: &Round<'_>) -> Vec<Others> {
             alike.dedup();
             // An effect without a set competes with nothing: these data do not show it any more.
             let competing = set.and_then(|_| competing.next()).unwrap_or_default();
+            // Where a contest said which causes may be it, no other is as good.
+            let may_be = |set: SetId| {
+                let members = &last.sets[set].members;
+                found.shares.iter().any(|(other, _)| members.contains(other))
+            };
+            let is_as_good = |other: &CompetingModel| match found.shares.is_empty() {
+                true => other.behind <= AS_GOOD,
+                false => may_be(other.set),
+            };
             let (competing, behind): (Vec<CompetingModel>, Vec<CompetingModel>) =
-                competing.into_iter().partition(|other| other.behind <= AS_GOOD);
+                competing.into_iter().partition(is_as_good);
             let others = |models: Vec<CompetingModel>| -> Vec<Vec<EffectId>> {
                 let members = models.iter().map(|other| last.sets[other.set].members.clone());
                 members.filter(|members| !alike.contains(&members[0])).collect()
@@ -210,7 +222,7 @@ pub(super) fn effects(
                     .map(|members| members.iter().map(|&other| whole.catalogue[other].name.clone()).collect())
                     .collect(),
                 form_determined: true,
-                causes: causes(whole, found.effect, others),
+                causes: causes(whole, found, others),
                 coefficients: errors
                     .iter()
                     .map(|id| (name_of(id), last.fitted.fit.values[id.index()]))
@@ -245,11 +257,11 @@ fn names(whole: &Context<'_>, effect: &Effect, number: EffectId, alike: &[Effect
 }
 
 /// Every cause once.
-fn causes(whole: &Context<'_>, own: EffectId, others: &Others) -> Vec<Cause> {
+fn causes(whole: &Context<'_>, found: &Found, others: &Others) -> Vec<Cause> {
     let mut causes: Vec<Cause> = Vec::new();
     let competing = others.competing.concat();
     let all = [
-        (Relation::Accepted, &[own][..]),
+        (Relation::Accepted, &[found.effect][..]),
         (Relation::Same, &others.alike),
         (Relation::Competing, &competing),
     ];
@@ -267,6 +279,7 @@ fn causes(whole: &Context<'_>, own: EffectId, others: &Others) -> Vec<Cause> {
                 family: family.name,
                 body: whole.setting.body_name(effect.place.body).to_owned(),
                 relation,
+                share: found.shares.iter().find(|(own, _)| *own == number).map(|(_, share)| *share),
                 published: whole.names[number.0].iter().map(ToString::to_string).collect(),
                 causes: family.causes,
                 looks: family.looks,
@@ -274,6 +287,8 @@ fn causes(whole: &Context<'_>, own: EffectId, others: &Others) -> Vec<Cause> {
             });
         }
     }
+    // Weighed ones by their shares.
+    causes.sort_by(|a, b| b.share.unwrap_or(0.0).total_cmp(&a.share.unwrap_or(0.0)));
     causes
 }
 

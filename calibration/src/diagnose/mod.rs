@@ -37,11 +37,13 @@ pub(crate) mod trace;
 mod two_places;
 mod uneven;
 mod units;
+mod used;
 mod verdict;
 
 use model_core::SymbolId;
 use serde::Serialize;
 
+pub use crate::contest::Hypothesis;
 use crate::design::discrimination::separation;
 use crate::design::{PlaceProposal, Proposal, Separation};
 use crate::search::HeldOut;
@@ -58,8 +60,7 @@ use fit::FitResult;
 use misread::misread;
 use next::{Next, next};
 use noisy::Noisy;
-use observe::unknowns::Unknowns;
-use observe::{Origin, SiUnit};
+use observe::SiUnit;
 use rms::BeforeAfter;
 use scale_or_places::scale_or_places;
 use verdict::Evidence;
@@ -94,6 +95,7 @@ pub use trace::Trace;
 pub use two_places::TwoPlaces;
 use uneven::Scatter;
 pub use uneven::Uneven;
+pub use used::{SetAsideRow, Used};
 pub use verdict::Verdict;
 
 /// What a calibration comes to, and everything that it found: `report.json`, whose keys are a promise.
@@ -135,6 +137,9 @@ pub struct Diagnosis {
     pub separating: Vec<Separation>,
     /// The effects that were accepted, in the order they came in.
     pub effects: Vec<EffectFound>,
+    /// Who competed to explain what the declaration leaves, where a contest was held.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub contest: Vec<Hypothesis>,
     /// How the search was made; absent where none was, because the fit failed.
     pub search: Option<Searching>,
     /// What is left after the effects; absent where no search was made.
@@ -167,40 +172,6 @@ pub struct Fits {
     pub rank: [usize; 2],
     /// Degrees of freedom of the residual.
     pub degrees_of_freedom: f64,
-}
-
-/// How many observations were used, and which were not.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Used {
-    /// Observations read.
-    pub rows: usize,
-    /// Observations with weight.
-    pub used: usize,
-    /// Groups of rows that are not independent.
-    pub groups: usize,
-    /// Observed objects whose place the study does not say; absent where there are none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub unknown_objects: Option<usize>,
-    /// The others.
-    pub set_aside: Vec<SetAsideRow>,
-}
-
-/// An observation that has no weight.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct SetAsideRow {
-    /// Its number in its file, from 1.
-    pub row: u64,
-    /// Its file, where the observations come from several.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub file: Option<String>,
-    /// Its line in the file, from 1, where the format has lines.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub line: Option<u64>,
-    /// Its own name, where the study says a column of names.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub id: Option<String>,
-    /// Why.
-    pub why: String,
 }
 
 /// How a search was made.
@@ -316,12 +287,12 @@ pub(crate) fn diagnose(
             rank: [fit.rank, fit.parameters.len()],
             degrees_of_freedom: fit.degrees_of_freedom,
         },
-        observations: used(whole, fit),
+        observations: used::used(observations, fit),
         every_row: None,
         instrument: instrument::instrument(&whole.setting, &last.chain, observations, &errors),
         errors,
         estimable: errors::estimable(whole, last, &found.by_cause),
-        at_zero: at_zero::at_zero(&whole.setting, &last.chain, observations, fit),
+        at_zero: at_zero::at_zero(&whole.setting, &last.chain, observations, fit)?,
         beside_functions: at_zero::beside_functions(whole, last),
         not_separable: precision.not_separable.iter().map(|set| set.names.clone()).collect(),
         next_poses: next.poses,
@@ -330,6 +301,7 @@ pub(crate) fn diagnose(
         precision,
         noise,
         effects: found.effects,
+        contest: Vec::new(),
         search: found.search,
         remaining: found.remaining,
         harmonics: harmonics::harmonics(&last.chain, observations, before, fit),
@@ -418,32 +390,4 @@ fn cautions(found: &Found, whole: &Context<'_>, rms: &[BeforeAfter]) -> Vec<Caut
         cautions.push(Caution::LimitOfEffects { effects: found.effects.len() });
     }
     cautions
-}
-
-fn used(whole: &Context<'_>, fit: &FitResult) -> Used {
-    let observations = whole.request.observations;
-    let mut groups = observations.groups.clone();
-    groups.sort_unstable();
-    groups.dedup();
-    Used {
-        rows: observations.rows(),
-        used: observations.rows() - fit.set_aside.len(),
-        groups: groups.len(),
-        unknown_objects: observations.unknowns.as_ref().and_then(Unknowns::unknown_objects),
-        set_aside: fit
-            .set_aside
-            .iter()
-            .map(|aside| {
-                let Origin { file, line, name } = observations.origins.of(aside.row);
-                let (file, id) = (file.map(str::to_owned), name.map(str::to_owned));
-                SetAsideRow {
-                    row: observations.row_number(aside.row),
-                    file,
-                    line,
-                    id,
-                    why: aside.why.to_string(),
-                }
-            })
-            .collect(),
-    }
 }

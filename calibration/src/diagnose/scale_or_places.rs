@@ -48,7 +48,7 @@ pub(super) fn scale_or_places(
 /// where places are as far off with it: one of them is wrong then.
 fn fitted(whole: &Context<'_>, last: &Round<'_>, scale: EffectId) -> Option<[f64; 2]> {
     let mut found = last.fitted.found.clone();
-    found.push(Found { effect: scale, p_value: 1.0, alike: vec![scale] });
+    found.push(Found { effect: scale, p_value: 1.0, alike: vec![scale], shares: Vec::new() });
     let Fitted { fit, errors, .. } = Fitted::with(whole, found, &last.fitted).ok()?;
     let &[scale] = errors.last()?.as_slice() else { return None };
     let at = fit.parameters.iter().position(|&id| id == scale)?;

@@ -33,6 +33,8 @@ pub(crate) struct Found {
     pub p_value: f64,
     /// The confounded set that it came in with, itself included.
     pub alike: Vec<EffectId>,
+    /// Effects that may be the cause, itself among them, with their shares of the posterior; none where no contest said so.
+    pub shares: Vec<(EffectId, f64)>,
 }
 
 /// What all stages share.

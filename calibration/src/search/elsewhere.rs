@@ -8,7 +8,6 @@ use model_core::{SymbolId, SymbolKind};
 
 use super::folds::Folds;
 use super::problem::Problem;
-use super::select::select;
 use super::state::State;
 use crate::search::context::Context;
 use crate::search::round::Round;
@@ -108,7 +107,7 @@ fn judged(
         seen = seen.with_reach(reach.without(|component| !held[component], joint));
     }
     let before = State::declared(&seen, |fold| fold == 0).coefficients();
-    let after = select(&seen, &last.sets, &[], |fold| fold == 0, &whole.options).state.coefficients();
+    let after = last.repeated(whole, &seen, |fold| fold == 0).1.coefficients();
     let (before, after) = (left(last, &seen, &before), left(last, &seen, &after));
     let mut by_row = std::collections::BTreeMap::new();
     for component in (0..held.len()).filter(|&component| held[component]) {

@@ -1,8 +1,7 @@
 //! Nested cross-validation: the whole search repeated without each fold, and judged on that fold.
 
-use super::confounded::{ConfoundedSet, SetId};
+use super::confounded::SetId;
 use super::problem::Problem;
-use super::select::{Options, select};
 use super::state::State;
 
 /// What the searches without each fold found, and the regressions that predict it.
@@ -68,13 +67,12 @@ fn left(problem: &Problem, fold: usize, coefficients: &[(usize, f64)]) -> f64 {
     rss
 }
 
-/// Repeats the search without each fold.
+/// Repeats the search without each fold: `without` gives what is accepted without one, and the regression with it.
 #[must_use]
-pub fn nested(problem: &Problem, sets: &[ConfoundedSet], options: &Options) -> HeldOut {
+pub fn nested(problem: &Problem, without: impl Fn(usize) -> (Vec<SetId>, State) + Sync) -> HeldOut {
     let folds: Vec<(Vec<SetId>, State, State)> = parallel::each(problem.folds(), |fold| {
-        let selection = select(problem, sets, &[], |f| f != fold, options);
-        let chosen = selection.accepted.iter().map(|a| a.set).collect();
-        (chosen, State::declared(problem, |f| f != fold), selection.state)
+        let (chosen, state) = without(fold);
+        (chosen, State::declared(problem, |f| f != fold), state)
     });
     HeldOut {
         before: folds.iter().map(|fold| fold.1.coefficients()).collect(),

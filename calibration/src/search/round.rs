@@ -1,12 +1,14 @@
 //! One round: the declaration with the effects accepted so far is fitted, and the search starts from there.
 
 use super::SearchError;
-use super::confounded::SetId;
+use std::sync::Arc;
+
+use super::confounded::{SetColumns, SetId};
 use super::context::{Context, Found};
 use super::fitted::Fitted;
 use super::state::State;
 use crate::search::search_problem::SearchProblem;
-use crate::search::{Accepted, ConfoundedSet, Selection, confounded_sets, select};
+use crate::search::{Accepted, ConfoundedSet, HeldOut, Problem, Selection, confounded_sets, nested, select};
 use effects::candidate::EffectId;
 
 /// Degrees of freedom of a residual, and groups of its rows, below which nothing can be told of its structure.
@@ -15,12 +17,20 @@ const FEWEST: usize = 20;
 /// An effect that stands out by so many standard deviations is hardly chance.
 const SURE: f64 = 3.0;
 
+/// What explains rows by effects of the catalogue.
+pub(crate) trait Explains: Send + Sync {
+    /// The effects that explain those of the rows that stay.
+    fn of_rows(&self, keeps: &(dyn Fn(usize) -> bool + Sync)) -> Vec<EffectId>;
+}
+
 /// A fit, and the search that starts from it.
 pub(crate) struct Round<'a> {
     pub fitted: Fitted,
     pub search: SearchProblem<'a>,
     /// Effects that these data cannot tell apart.
     pub sets: Vec<ConfoundedSet>,
+    /// What decided which effects there are; without it the search did.
+    explained_by: Option<Arc<dyn Explains>>,
 }
 
 impl<'a> Round<'a> {
@@ -28,7 +38,17 @@ impl<'a> Round<'a> {
     pub fn at(whole: &Context<'a>, fitted: Fitted) -> Result<Self, SearchError> {
         let search = SearchProblem::at(whole, &fitted)?;
         let sets = confounded_sets(&search.problem);
-        Ok(Self { fitted, search, sets })
+        Ok(Self { fitted, search, sets, explained_by: None })
+    }
+
+    /// At another fit, where the effects come from whatever gave those of this one.
+    pub fn next(&self, whole: &Context<'a>, fitted: Fitted) -> Result<Self, SearchError> {
+        Ok(Self { explained_by: self.explained_by.clone(), ..Self::at(whole, fitted)? })
+    }
+
+    /// The same, with its effects by `explains`.
+    pub fn explained_by(self, explains: Arc<dyn Explains>) -> Self {
+        Self { explained_by: Some(explains), ..self }
     }
 
     /// Whether there are rows enough to tell structure of what is left from noise.
@@ -129,6 +149,40 @@ impl<'a> Round<'a> {
         select(&self.search.problem, &self.sets, &start, |_| true, &whole.options)
     }
 
+    /// What is found anew without each fold.
+    pub fn held_out(&self, whole: &Context<'_>) -> HeldOut {
+        let problem = &self.search.problem;
+        nested(problem, |fold| self.repeated(whole, problem, |other| other != fold))
+    }
+
+    /// What is found in some folds of a problem, and the regression with it.
+    pub fn repeated(
+        &self,
+        whole: &Context<'_>,
+        problem: &Problem,
+        seen: impl Fn(usize) -> bool + Copy,
+    ) -> (Vec<SetId>, State) {
+        let Some(explains) = &self.explained_by else {
+            let selection = select(problem, &self.sets, &[], seen, &whole.options);
+            return (selection.accepted.iter().map(|accepted| accepted.set).collect(), selection.state);
+        };
+        let rows = &self.search.rows;
+        let mut stays = vec![false; rows.observations.rows()];
+        for component in problem.rows_of_folds(seen) {
+            stays[rows.columns.row[component] as usize] = true;
+        }
+        let blocks = SetColumns::of(problem, &self.sets);
+        let mut state = State::declared(problem, seen);
+        let mut sets = Vec::new();
+        for set in explains.of_rows(&|row| stays[row]).into_iter().filter_map(|effect| self.set_of(effect)) {
+            if !sets.contains(&set) {
+                state.add(&blocks[set]);
+                sets.push(set);
+            }
+        }
+        (sets, state)
+    }
+
     /// What the search ends with: accepted effects keep their name and p, a new set lends its first member's.
     pub fn search(&self, whole: &Context<'_>) -> Vec<Found> {
         let kept = self.accepted_sets();
@@ -139,7 +193,7 @@ impl<'a> Round<'a> {
                 Some(at) => self.fitted.found[at].clone(),
                 None => {
                     let alike = self.sets[accepted.set].members.clone();
-                    Found { effect: alike[0], p_value: accepted.p_value, alike }
+                    Found { effect: alike[0], p_value: accepted.p_value, alike, shares: Vec::new() }
                 }
             })
             .collect()

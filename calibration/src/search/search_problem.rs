@@ -330,7 +330,6 @@ mod tests {
 
     use super::*;
     use crate::search::context::Found;
-    use crate::search::nested;
     use crate::search::round::Round;
     use crate::search::{Request, Stage};
     use study::Study;
@@ -430,7 +429,7 @@ mod tests {
             }
         }
         let left = [(&all, &of_all), (&merged, &of_merged)].map(|(whole, round)| {
-            let held = nested(&round.search.problem, &round.sets, &whole.options);
+            let held = round.held_out(whole);
             crate::calibrate::held_out::predicted(whole, round, [&held.after]).unwrap()
         });
         for (one, other) in left[0][0].iter().zip(&left[1][0]) {

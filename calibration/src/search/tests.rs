@@ -37,7 +37,10 @@ fn a_planted_effect_is_found_and_nothing_else() {
     let found = select(&problem, &sets, &[], |_| true, &Options::default());
     let names: Vec<SetId> = found.accepted.iter().map(|a| a.set).collect();
     assert_eq!(names, [SetId(17)]);
-    let held = nested(&problem, &sets, &Options::default());
+    let held = nested(&problem, |fold| {
+        let found = select(&problem, &sets, &[], |other| other != fold, &Options::default());
+        (found.accepted.iter().map(|accepted| accepted.set).collect(), found.state)
+    });
     assert!((held.share(SetId(17)) - 1.0).abs() < 1e-12);
     let (before, after) = held.sums_of_squares(&problem);
     assert!(after < 0.9 * before);

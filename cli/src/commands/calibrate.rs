@@ -4,6 +4,9 @@ use std::io;
 use std::path::PathBuf;
 
 use calibration::calibrate::Calibration;
+use calibration::diagnose::Diagnosis;
+use model_core::escape::Screen;
+use model_core::names::nearest;
 use report::Layout;
 use study::Plan;
 use tables::formats;
@@ -43,6 +46,9 @@ pub struct Arguments {
     /// Only print how the declaration would change (with --format json: the whole report, the change in it); write nothing
     #[arg(long, conflicts_with = "out")]
     dry_run: bool,
+    /// Tell why a suspected cause is, or is not, told: words of its name, as "gravity flexure"
+    #[arg(long, value_name = "NAME")]
+    explain: Option<String>,
     /// Tell everything: evidence, noise, poses to measure, what these data could not have shown
     #[arg(long)]
     verbose: bool,
@@ -93,6 +99,9 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let calibrated = completed?;
     let folder = arguments.out.as_ref().map(|folder| folder.display().to_string());
     let reported = calibrated.reported(folder.as_deref());
+    let layout = Layout { width: terminal::width(), verbose: arguments.verbose };
+    let explained = arguments.explain.as_ref().map(|name| why(&reported.calibration.diagnosis, name, layout));
+    let explained = explained.transpose()?;
     if arguments.dry_run {
         let change = report::diff(&reported);
         if change.is_empty() {
@@ -118,12 +127,30 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         }
         terminal::note(format_args!("the report is in {}", folder.join("report.html").display()));
     }
-    let layout = Layout { width: terminal::width(), verbose: arguments.verbose };
     terminal::print(match arguments.format {
         TextOrJson::Text => report::as_text(&reported, layout),
         TextOrJson::Json => report::json(&reported)?.into(),
     })?;
+    // The whole contest stands in the JSON.
+    if let (TextOrJson::Text, Some(explained)) = (arguments.format, explained) {
+        terminal::print(explained)?;
+    }
     Ok(answer(reported.calibration))
+}
+
+/// What is said of a suspected cause.
+fn why(diagnosis: &Diagnosis, name: &str, layout: Layout) -> Result<Screen, Failure> {
+    report::why(diagnosis, name, layout).ok_or_else(|| {
+        let known = diagnosis.contest.iter().map(|own| own.name.as_str());
+        let near = nearest(name, known.clone()).map_or_else(String::new, |near| format!("; nearest is \"{near}\""));
+        let some: Vec<&str> = known.take(3).collect();
+        Failure::Input(format!(
+            "--explain: no explanation that competed has the words \"{name}\" in its name{near}. There are {} and {} more; report.json lists \
+             them under `contest`",
+            some.join(", "),
+            diagnosis.contest.len() - some.len()
+        ))
+    })
 }
 
 fn at_least_one(text: &str) -> Result<usize, String> {

@@ -4,6 +4,7 @@
 mod answer;
 mod card;
 mod chain;
+mod contest;
 mod distribution;
 mod map;
 mod pictures;

@@ -214,7 +214,12 @@ fn happened(diagnosis: &Diagnosis) -> String {
                 (0 | 1, others) => {
                     format!("Cause found; {} other models explain these data about as well.", others.len())
                 }
-                (fit, _) => format!("Cause found; these data fit {fit} physical causes equally well."),
+                (fit, _) if effect.causes.iter().all(|cause| cause.share.is_none()) => {
+                    format!("Cause found; these data fit {fit} physical causes equally well.")
+                }
+                (fit, _) => {
+                    format!("Cause found; these data fit {fit} physical causes. Their shares stand below.")
+                }
             }
         }
         Verdict::Confounded => {

@@ -1,7 +1,11 @@
 //! Physical causes, plainly: the words that a person at the instrument would use for what the catalogue names.
 
+use super::contest::percent;
 use calibration::diagnose::Cause;
 use effects::candidate::Dependence;
+
+/// A share from which on a cause stands alone.
+const SURE: f64 = 0.995;
 
 /// A cause as one would say it: `the encoder of beta sits off centre`.
 #[must_use]
@@ -12,27 +16,36 @@ pub fn cause(cause: &Cause) -> String {
     }
 }
 
-/// Causes in words, each once; one line for an encoder that errs so many times a turn, whatever the number.
+/// Causes in words, each once, with its share where a contest weighed several; one line for an encoder that errs so many times a turn,
+/// whatever the number.
 #[must_use]
 pub fn each_once<'a>(causes: impl Iterator<Item = &'a Cause>) -> Vec<String> {
-    let mut told: Vec<(String, Vec<u32>)> = Vec::new();
+    let mut told: Vec<(String, Vec<u32>, Vec<f64>)> = Vec::new();
     for cause in causes {
         let order = cause.name.strip_prefix("encoder error of ").and_then(|rest| {
             let (joint, order) = rest.strip_suffix(" per turn")?.rsplit_once(", ")?;
             Some((format!("the encoder of {joint} errs"), order.parse::<u32>().ok()?))
         });
         let (words, order) = order.map_or_else(|| (self::cause(cause), None), |(words, n)| (words, Some(n)));
-        match told.iter_mut().find(|(known, _)| *known == words) {
-            Some((_, orders)) => orders.extend(order),
-            None => told.push((words, order.into_iter().collect())),
+        match told.iter_mut().find(|(known, ..)| *known == words) {
+            Some((_, orders, shares)) => {
+                orders.extend(order);
+                shares.extend(cause.share);
+            }
+            None => told.push((words, order.into_iter().collect(), cause.share.into_iter().collect())),
         }
     }
     told.into_iter()
-        .map(|(words, mut orders)| {
+        .map(|(words, mut orders, shares)| {
             orders.sort_unstable();
             orders.dedup();
             let orders: Vec<String> = orders.iter().map(ToString::to_string).collect();
-            if orders.is_empty() { words } else { format!("{words} {} times a turn", orders.join(", ")) }
+            let words =
+                if orders.is_empty() { words } else { format!("{words} {} times a turn", orders.join(", ")) };
+            match shares.iter().sum::<f64>() {
+                share if share > 0.0 && share < SURE => format!("{words} ({})", percent(share)),
+                _ => words,
+            }
         })
         .collect()
 }

@@ -7,6 +7,7 @@ mod answers;
 mod causes;
 mod cautions;
 mod columns;
+pub mod contest;
 mod effects;
 mod errors;
 mod hidden;

@@ -1,0 +1,78 @@
+//! The contest in words: why a suspected cause is, or is not, told.
+
+use super::numbers;
+use calibration::diagnose::{Diagnosis, Hypothesis};
+
+/// Nats within which one cause is as likely as the other to within a twentieth.
+const NONE: f64 = 0.05;
+
+/// The hypotheses whose names hold all words of a text, in the order of the contest.
+#[must_use]
+pub fn called<'a>(diagnosis: &'a Diagnosis, text: &str) -> Vec<&'a Hypothesis> {
+    let words: Vec<String> = text.split_whitespace().map(str::to_lowercase).collect();
+    let holds = |own: &&Hypothesis| {
+        let name = own.name.to_lowercase();
+        words.iter().all(|word| name.contains(word.as_str()))
+    };
+    diagnosis.contest.iter().filter(holds).collect()
+}
+
+/// Why a hypothesis is, or is not, told, in sentences.
+#[must_use]
+pub fn why(own: &Hypothesis, diagnosis: &Diagnosis) -> String {
+    let (name, price) = (&own.name, nats(own.price));
+    let size = |value: f64| numbers::short(value, diagnosis.unit);
+    if let (Some(leader), Some(behind)) = (&own.instead_of, own.behind) {
+        return if behind <= NONE {
+            format!("{name}: these data cannot tell it from {leader}. Its share is {}.", percent(own.share))
+        } else {
+            format!(
+                "{name}: {} behind {leader}, which explains the same. Its share is {}.",
+                nats(behind),
+                percent(own.share)
+            )
+        };
+    }
+    if own.told {
+        let gain = own.gain.map_or_else(String::new, |gain| {
+            format!(" It gains {} and costs {price}: so many others could stand in its place.", nats(gain))
+        });
+        let share =
+            if own.share > 0.0 { format!(" Its share is {}.", percent(own.share)) } else { String::new() };
+        return format!("{name}: told.{gain}{share}");
+    }
+    let left =
+        own.left.as_ref().map_or_else(String::new, |left| format!(" It was in, and left again: {left}."));
+    match own.needs {
+        None => {
+            format!("{name}: what is told takes up all that it does. These data say nothing of it.{left}")
+        }
+        Some(needs) => format!(
+            "{name}: it would need {} to be told, and shows {} beside what is told.{left}",
+            size(needs),
+            size(own.shows)
+        ),
+    }
+}
+
+/// What the figures of a contest mean.
+pub const MEANING: &str = "Evidence is counted in nats: one is worth odds of 2.7 to 1, three are worth 20 to 1. \
+                           Sizes are root mean squares over these data.";
+
+/// Why no contest was held.
+pub const NONE_HELD: &str = "No contest was held, so that none of its figures can be told: it reads one kind of observation, of known \
+                             objects, without groups, and up to 4,000 values.";
+
+/// `2.1 nats`
+fn nats(value: f64) -> String {
+    format!("{value:.1} nats").replace('-', "−")
+}
+
+/// `18 %`
+#[must_use]
+pub fn percent(share: f64) -> String {
+    match 100.0 * share {
+        small if small < 1.0 => "under 1 %".to_owned(),
+        large => format!("{large:.0} %"),
+    }
+}

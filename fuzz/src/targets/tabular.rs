@@ -39,9 +39,8 @@ fn texts(cells: &formats::Cells) -> Vec<String> {
 }
 
 /// Every column as numbers, and as labels.
-fn every_column(mut reader: Box<dyn TableReader + '_>, form: &Form) {
-    let wanted: Vec<Wanted> =
-        (0..reader.header().len()).map(|column| Wanted { column, form: form.clone() }).collect();
+fn every_column(mut reader: Box<dyn TableReader + '_>, form: Form) {
+    let wanted: Vec<Wanted> = (0..reader.header().len()).map(|column| Wanted { column, form }).collect();
     if let Err(error) = reader.read(&wanted, ROWS) {
         is_seen(&Refusal::of(error).to_string());
     }
@@ -51,7 +50,7 @@ fn every_column(mut reader: Box<dyn TableReader + '_>, form: &Form) {
 pub fn observations(input: &[u8]) {
     for file in ["f.dat", "f.csv"] {
         match formats::open(input, file, &Options::default()) {
-            Ok(reader) => every_column(reader, &Form::Number(2.0)),
+            Ok(reader) => every_column(reader, Form::Number(2.0)),
             Err(error) => is_seen(&Refusal::of(error).to_string()),
         }
     }
@@ -62,7 +61,7 @@ pub fn observations(input: &[u8]) {
 pub fn parquet(input: &[u8]) {
     for form in [Form::Number(2.0), Form::Label, Form::Kept] {
         match formats::open(input, "f.parquet", &Options::default()) {
-            Ok(reader) => every_column(reader, &form),
+            Ok(reader) => every_column(reader, form),
             Err(error) => is_seen(&Refusal::of(error).to_string()),
         }
     }

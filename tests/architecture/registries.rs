@@ -14,6 +14,7 @@ const REGISTRIES: &[&str] = &[
     "evidence/src/families",
     "class/src/instruments",
     "service/src/export/forms",
+    "fuzz/src/targets",
 ];
 
 #[test]

@@ -9,6 +9,7 @@ pub mod calibrating;
 pub mod compare;
 pub mod errors_file;
 pub mod evaluation;
+pub mod export;
 pub mod instrument;
 pub mod over_memory;
 pub mod readings;

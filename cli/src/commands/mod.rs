@@ -10,6 +10,7 @@ mod compare;
 mod completions;
 pub mod derive;
 mod eval;
+mod export;
 pub mod generate;
 pub mod identify;
 mod init;
@@ -73,6 +74,7 @@ commands! {
     Apply => apply,
     Compare => compare,
     Verify => verify,
+    Export => export,
     Class => class,
     Completions => completions,
     Manual => manual,

@@ -60,8 +60,8 @@ pub const MEANING: &str = "Evidence is counted in nats: one is worth odds of 2.7
                            Sizes are root mean squares over these data.";
 
 /// Why no contest was held.
-pub const NONE_HELD: &str = "No contest was held, so that none of its figures can be told: it reads one kind of observation, of known \
-                             objects, without groups, and up to 4,000 values.";
+pub const NONE_HELD: &str = "No contest was held. It needs one kind of observation of known objects, exact readings, and at most 4,000 \
+                             measured values.";
 
 /// `2.1 nats`
 fn nats(value: f64) -> String {

@@ -166,6 +166,11 @@ fn outside_of_code(text: &str) -> String {
     let (mut rest, mut outside) = (text, String::new());
     while let Some(at) = rest.find('`') {
         outside.push_str(&rest[..at]);
+        // A backslash makes it a letter.
+        if rest[..at].ends_with('\\') {
+            rest = &rest[at + 1..];
+            continue;
+        }
         let ticks = rest[at..].len() - rest[at..].trim_start_matches('`').len();
         let behind = &rest[at + ticks..];
         let ends = behind.match_indices('`').filter(|&(end, _)| !behind[..end].ends_with('`'));

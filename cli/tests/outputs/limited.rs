@@ -34,7 +34,7 @@ fn wide() -> String {
 }
 
 /// Every command of the program, with what it reads in the folder. What names a folder or file to write is removed before each run.
-const COMMANDS: [&str; 19] = [
+const COMMANDS: [&str; 22] = [
     "init measured.csv --template alt-azimuth --out begun.toml",
     "derive wide.chain",
     "derive wide.chain --format latex",
@@ -49,6 +49,9 @@ const COMMANDS: [&str; 19] = [
     "calibrate study.toml --out result",
     "apply shaft.chain --errors e.toml --data poses.csv --as vector --out out.csv",
     "apply kept/instrument.toml --data measured.csv --out out.csv",
+    "compare kept/instrument.toml kept/instrument.toml",
+    "verify kept/instrument.toml --data measured.csv",
+    "export kept/instrument.toml --form table --out made.csv",
     "class new --students names.csv --seed phrase --level 1 --out class",
     "class grade handed --key handed.key.toml",
     "completions bash",

@@ -148,6 +148,7 @@ mod tests {
             family: "",
             body: String::new(),
             relation: Relation::Competing,
+            share: None,
             published: Vec::new(),
             causes: "",
             looks: "",

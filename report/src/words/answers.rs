@@ -42,7 +42,7 @@ pub struct Answers {
     pub what: Vec<String>,
     /// The causes that fit, of all effects, each once.
     pub causes: Vec<String>,
-    /// Where, one for each effect.
+    /// Where the effects sit, each place once.
     pub places: Vec<String>,
     /// How much better, in a sentence.
     pub better: String,
@@ -93,10 +93,21 @@ pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) -> An
         chance: if usable { chance_of_all(&effects, diagnosis) } else { None },
         what,
         causes,
-        places: effects.iter().map(|effect| place(effect, diagnosis)).collect(),
+        places: once(effects.iter().map(|effect| place(effect, diagnosis))),
         better: better(diagnosis),
         next: steps(diagnosis, folder, command),
     }
+}
+
+/// Texts in their order, each once.
+fn once(texts: impl Iterator<Item = String>) -> Vec<String> {
+    let mut found: Vec<String> = Vec::new();
+    for text in texts {
+        if !found.contains(&text) {
+            found.push(text);
+        }
+    }
+    found
 }
 
 /// Where not to correct with it.

@@ -3,7 +3,7 @@
 use super::causes::sentence_case;
 use super::left::remaining;
 use super::numbers::{short, times};
-use calibration::diagnose::{Diagnosis, Rms};
+use calibration::diagnose::{Diagnosis, Rms, Verdict};
 use observe::SiUnit;
 
 /// Outliers hide the other rows where a figure over every row is this many times theirs.
@@ -39,6 +39,9 @@ pub(super) fn better(diagnosis: &Diagnosis) -> String {
 /// How much better the residuals of an observable are.
 fn of_unit(diagnosis: &Diagnosis, observed: &str, unit: SiUnit, [before, after]: [Rms; 2]) -> String {
     let size = |si: f64| format!("{} RMS", short(si, unit));
+    if diagnosis.verdict == Verdict::TooFewObservations {
+        return "These data are too few to show an improvement.".to_owned();
+    }
     if !diagnosis.verdict.is_usable() {
         return before.rms.map_or_else(
             || format!("The fit gives no `{observed}` error."),

@@ -74,6 +74,11 @@ pub struct Opened {
 }
 
 impl OverTable {
+    /// The file of the instrument or declaration.
+    pub fn chain(&self) -> &std::path::Path {
+        &self.chain
+    }
+
     /// Reads the declaration and the errors, and opens the table.
     ///
     /// # Errors
@@ -141,7 +146,7 @@ impl OverTable {
         self.write(table, &added, Place::Behind, |rows| {
             let readings: Vec<_> =
                 rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
-            Ok(evaluator.columns(&readings, rows.count)?)
+            Ok(numbers(evaluator.columns(&readings, rows.count)?))
         })
     }
 
@@ -154,7 +159,7 @@ impl OverTable {
         table: ReadingsTable<'static>,
         added: &[String],
         place: Place,
-        mut compute: impl FnMut(&Rows) -> Result<Vec<Vec<f64>>, Failure>,
+        mut compute: impl FnMut(&Rows) -> Result<Vec<Column>, Failure>,
     ) -> Result<(), Failure> {
         let is_replaced = table.replaced_by(added);
         let order = order(&table, added, &is_replaced, place);
@@ -177,13 +182,18 @@ impl OverTable {
             let began = Instant::now();
             read_ahead(table, |rows, share_read| {
                 let computed = compute(&rows)?;
-                let is_finite = |row: &usize| computed.iter().all(|column| column[*row].is_finite());
+                let is_finite = |row: &usize| {
+                    computed.iter().all(|column| match column {
+                        Column::Numbers(numbers) => numbers[*row].is_finite(),
+                        Column::Kept(_) => true,
+                    })
+                };
                 not_finite += (0..rows.count).filter(|row| !is_finite(row)).count();
                 let mut kept: Vec<Option<Kept>> = rows.kept.into_iter().map(Some).collect();
-                let mut computed: Vec<Option<Vec<f64>>> = computed.into_iter().map(Some).collect();
+                let mut computed: Vec<Option<Column>> = computed.into_iter().map(Some).collect();
                 let columns = order.iter().filter_map(|from| match *from {
                     Origin::Input(at) => kept[at].take().map(Column::Kept),
-                    Origin::Computed(at) => computed[at].take().map(Column::Numbers),
+                    Origin::Computed(at) => computed[at].take(),
                 });
                 writer.rows(columns.collect(), rows.count)?;
                 done += rows.count;
@@ -201,6 +211,11 @@ impl OverTable {
         }
         Ok(())
     }
+}
+
+/// Columns of numbers.
+pub fn numbers(columns: Vec<Vec<f64>>) -> Vec<Column> {
+    columns.into_iter().map(Column::Numbers).collect()
 }
 
 /// Where columns that are computed stand.

@@ -41,6 +41,21 @@ pub fn chain(path: &Path) -> Result<Chain, Failure> {
     Ok(read(path)?.chain(&terminal::warn)?)
 }
 
+/// Reads an instrument file, and nothing else; a date behind which it does not count is no matter here.
+///
+/// # Errors
+/// As [`read`]; another kind of file; and the mistakes of the file, each with its place.
+pub fn instrument(path: &Path) -> Result<Instrument, Failure> {
+    let source = read(path)?;
+    if !source.is_instrument() {
+        return Err(Failure::Input(format!(
+            "`{}` is no instrument file: give the `instrument.toml` that `trueaxis calibrate` writes",
+            path.display()
+        )));
+    }
+    Ok(Instrument::of(&source, &terminal::warn)?)
+}
+
 /// A declaration, or an instrument file in its place.
 pub struct Declared {
     /// The text of the declaration.

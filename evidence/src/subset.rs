@@ -53,3 +53,63 @@ impl Problem {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::driver::Driver;
+    use crate::problem::{Declared, Frame, Freedom, Input, Joint, Load, Offered, Place, Problem, Rows};
+
+    /// Rows whose values say which row and component they are.
+    fn counted(rows: &[usize]) -> Problem {
+        let of_row = |from: f64| rows.iter().map(|&row| from + row as f64).collect::<Vec<_>>();
+        let of_values = |from: f64| -> Vec<f64> {
+            rows.iter().flat_map(|&row| [from + row as f64, from + row as f64 + 0.5]).collect()
+        };
+        Problem {
+            rows: Rows {
+                count: rows.len(),
+                joints: vec![Joint {
+                    name: "turn".into(),
+                    values: of_row(10.0),
+                    direction: Some(of_row(20.0)),
+                    from_horizon: true,
+                }],
+                inputs: vec![Input { name: "air".into(), values: of_row(30.0), is_time: false }],
+                labels: Some(rows.to_vec()),
+                in_order: true,
+                given: vec![of_row(40.0)],
+            },
+            components: 2,
+            residual: of_values(50.0),
+            sigma: Some(of_values(60.0)),
+            declared: vec![Declared { name: "index".into(), estimate: 1.0, column: of_values(70.0) }],
+            frames: vec![Frame { name: "base".into(), tilts: None, whirl: None }],
+            places: vec![Place {
+                name: "base.Rz".into(),
+                frame: 0,
+                freedom: Freedom::Rotation(2),
+                own: Some(0),
+                beside: vec![0],
+                column: of_values(80.0),
+                nominal: Some(of_values(90.0)),
+                gravity: Some([of_row(100.0), of_row(110.0), of_row(120.0)]),
+                loads: vec![Load { body: "arm".into(), torque: of_row(130.0) }],
+            }],
+            offered: vec![Offered {
+                name: "own".into(),
+                place: 0,
+                driver: Driver::Joint(0),
+                order: None,
+                columns: vec![vec![(0, 0)]],
+            }],
+        }
+    }
+
+    #[test]
+    fn some_rows_are_the_problem_of_these_rows_alone() {
+        let all = counted(&[0, 1, 2, 3, 4]);
+        assert_eq!(all.of_rows(|row| row != 1 && row != 4), counted(&[0, 2, 3]));
+        assert_eq!(all.of_rows(|_| true), all);
+        assert!(all.of_rows(|_| false).check().is_err());
+    }
+}

@@ -36,6 +36,7 @@ mod stated;
 mod stream;
 mod subspace;
 pub mod sweep;
+mod turns;
 mod uncertainty;
 mod units;
 mod validation;

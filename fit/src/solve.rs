@@ -9,6 +9,7 @@ use model_core::Chain;
 use super::align::starting_values;
 use super::solver::{Course, Solver};
 use super::sweep::{Weighting, residuals};
+use super::turns::unwound;
 use super::{FitError, FitOptions, FitResult, Model, Outcome, Reason, Residuals, SetAside, Why};
 use crate::noise::{Layout, NoiseOptions};
 use observe::Observations;
@@ -168,6 +169,7 @@ impl Solver<'_> {
             *value *= weight[row].sqrt();
         }
         let parameters = self.model.parameters().to_vec();
+        let values = unwound(self.chain, &parameters, point.values);
         let outcome = match far_off.or(stopped) {
             // Far off all noise is none, and no row near enough to count.
             Some(Reason::FarOff) => {
@@ -184,7 +186,7 @@ impl Solver<'_> {
         };
         Ok(FitResult {
             outcome,
-            estimable: uncertainty.estimable(&subspace, &parameters, &point.values),
+            estimable: uncertainty.estimable(&subspace, &parameters, &values),
             shown: subspace.shown(),
             separable: subspace.separable(),
             null_space: subspace.null_space(),
@@ -202,7 +204,7 @@ impl Solver<'_> {
             rest: point.rest,
             subspace,
             parameters,
-            values: point.values,
+            values,
             residuals: Arc::new(Residuals { raw: point.sweep.residual, weight }),
         })
     }

@@ -16,7 +16,7 @@ use std::{env, fs};
 use rand::SeedableRng as _;
 use rand_chacha::ChaCha8Rng;
 
-/// An input that takes longer is a finding.
+/// An input that takes longer is a finding: of the processors, where the system tells, as others may have them.
 const SLOW: Duration = Duration::from_secs(10);
 /// A process that was ever larger is a finding: the memory budget of the readers, and room for the rest.
 const LARGEST_KIB: u64 = 3 << 20;
@@ -38,10 +38,10 @@ fn main() -> ExitCode {
     if chosen.is_empty() {
         return usage();
     }
-    let sound = chosen.iter().all(|(name, target)| {
-        run(name, *target, Duration::from_secs(seconds), &mut ChaCha8Rng::seed_from_u64(seed))
+    let found = chosen.iter().filter(|(name, target)| {
+        !run(name, *target, Duration::from_secs(seconds), &mut ChaCha8Rng::seed_from_u64(seed))
     });
-    if sound { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    if found.count() == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
 #[allow(clippy::print_stderr, reason = "a program of its own")]
@@ -62,18 +62,22 @@ fn run(name: &str, target: targets::Target, time: Duration, chance: &mut ChaCha8
         }
     };
     let start = Instant::now();
-    let mut tried = 0_u64;
+    let (mut tried, mut slowest) = (0_u64, Duration::ZERO);
     while start.elapsed() < time {
         let input = match corpus.get(usize::try_from(tried).unwrap_or(usize::MAX)) {
             // The corpus itself comes first.
             Some(whole) => whole.clone(),
             None => change::changed(&corpus, chance),
         };
-        let begun = Instant::now();
+        let (begun, used) = (Instant::now(), processor_time());
         let panicked = catch_unwind(AssertUnwindSafe(|| target(&input))).is_err();
+        let took = processor_time()
+            .zip(used)
+            .map_or_else(|| begun.elapsed(), |(after, before)| after.saturating_sub(before));
+        slowest = slowest.max(took);
         tried += 1;
         let large = largest_kib().is_some_and(|largest| largest > LARGEST_KIB);
-        if panicked || large || begun.elapsed() > SLOW {
+        if panicked || large || took > SLOW {
             let what = if panicked {
                 "panics"
             } else if large {
@@ -88,7 +92,11 @@ fn run(name: &str, target: targets::Target, time: Duration, chance: &mut ChaCha8
             return false;
         }
     }
-    eprintln!("{name}: {tried} inputs, nothing found");
+    eprintln!(
+        "{name}: {tried} inputs in {} s, the slowest took {:.2} s, nothing found",
+        start.elapsed().as_secs(),
+        slowest.as_secs_f64()
+    );
     true
 }
 
@@ -103,6 +111,15 @@ fn corpus(name: &str) -> std::io::Result<Vec<Vec<u8>>> {
         .collect::<Result<Vec<_>, _>>()?;
     files.sort();
     files.iter().map(fs::read).collect()
+}
+
+/// What the process has had of all processors, where the system tells.
+fn processor_time() -> Option<Duration> {
+    let stat = fs::read_to_string("/proc/self/stat").ok()?;
+    // Behind the name, which may hold anything, in hundredths of a second: the 12th and 13th field.
+    let mut fields = stat.rsplit_once(')')?.1.split_whitespace().skip(11);
+    let mut hundredths = || fields.next()?.parse::<u64>().ok();
+    Some(Duration::from_millis(10 * (hundredths()? + hundredths()?)))
 }
 
 /// The most memory that the process ever had, where the system tells.

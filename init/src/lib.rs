@@ -7,6 +7,7 @@
 mod frame;
 mod look;
 mod observed;
+pub mod robot;
 mod study;
 pub mod templates;
 mod words;

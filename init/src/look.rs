@@ -2,7 +2,7 @@
 
 use model_core::Quantity;
 use model_core::unit::{Measures, Unit};
-use tables::formats::{Cells, ColumnName, DataError, Form, TableReader, Texts, Wanted};
+use tables::formats::{Cells, ColumnName, DataError, Form, TableReader, Texts, Wanted, sexagesimal};
 
 use crate::NotBegun;
 use crate::words::{self, Part, Side};
@@ -91,6 +91,14 @@ impl Look {
         let all: Vec<&Column> = self.columns.iter().filter(of).collect();
         let numbers: Vec<&Column> = all.iter().copied().filter(|column| column.numbers.is_some()).collect();
         if numbers.is_empty() { all } else { numbers }
+    }
+
+    /// The column of one of some names, whatever unit stands behind it.
+    pub(crate) fn named(&self, names: &[&str]) -> Option<&Column> {
+        let of = |name: &&str| {
+            self.columns.iter().find(|column| column.name.stem == **name || column.name.full == **name)
+        };
+        names.iter().find_map(of)
     }
 
     /// The column with the instrument's own reading of a part.
@@ -205,8 +213,10 @@ impl Look {
 impl Column {
     fn new(name: ColumnName, texts: &Texts) -> Self {
         let (words, unit) = (words::words(&name.stem), name.unit());
-        let numbers = texts.iter().map(number).collect();
-        let no_number = texts.iter().position(|text| number(text).is_none());
+        let in_si = unit.map_or(1.0, |unit| unit.in_si());
+        let read = |text: &str| number(text).or_else(|| sexagesimal(text, in_si));
+        let numbers = texts.iter().map(read).collect();
+        let no_number = texts.iter().position(|text| read(text).is_none());
         let different: std::collections::BTreeSet<&str> = texts.iter().map(str::trim).collect();
         Self { name, words, unit, numbers, no_number, different: different.len(), rows: texts.len() }
     }

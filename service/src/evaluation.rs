@@ -75,6 +75,23 @@ impl Evaluator {
         Self { observables, readings, shown, parts, idle: Mutex::default() }
     }
 
+    /// What a program of one observable puts out, so many numbers, with the values of errors and constants.
+    pub(crate) fn of_program(
+        chain: &Chain,
+        observable: ObservableId,
+        program: Program,
+        outputs: usize,
+        values: &[f64],
+    ) -> Self {
+        Self {
+            observables: vec![observable],
+            readings: readings_of(chain, observable),
+            shown: outputs,
+            parts: vec![(program, values.to_vec())],
+            idle: Mutex::default(),
+        }
+    }
+
     /// What all observables show over columns of readings, a column each, those of the first observable first: computed on
     /// all processors, each row by itself, so that their number changes no bit.
     ///

@@ -6,14 +6,18 @@
 pub mod apply;
 pub mod budget;
 pub mod calibrating;
+pub mod compare;
 pub mod errors_file;
 pub mod evaluation;
+pub mod export;
 pub mod instrument;
 pub mod over_memory;
 pub mod readings;
 mod refusal;
+pub mod sensitivity;
 pub mod source;
 pub mod tolerance;
+pub mod verify;
 mod warn;
 
 pub use calibrating::{Calibrated, Made, Measured, Studied};

@@ -20,7 +20,7 @@ fn unseen() -> impl Iterator<Item = char> {
 }
 
 /// What does something in some target.
-const PAYLOADS: [&str; 102] = [
+const PAYLOADS: [&str; 110] = [
     // Terminals.
     "\u{1b}]0;injected\u{7}",
     "\u{1b}[31mX",
@@ -129,9 +129,17 @@ const PAYLOADS: [&str; 102] = [
     "constructor",
     "%s%n%x",
     "{injected}",
+    "{{injected}}",
+    "=cmd|'/c injected'!A0",
+    "+injected()",
+    "@injected",
+    "%APPDATA%\\injected",
+    "CON",
+    "~/injected",
+    "a\u{202a}\u{202b}\u{202c}\u{202d}\u{2068}b",
 ];
 
-/// Some two hundred strings.
+/// Two hundred strings.
 #[must_use]
 pub fn hostile() -> Vec<String> {
     let letters = unseen().map(|letter| format!("a{letter}b"));

@@ -13,6 +13,8 @@ const REGISTRIES: &[&str] = &[
     "calibration/src/misread/hypotheses",
     "evidence/src/families",
     "class/src/instruments",
+    "service/src/export/forms",
+    "fuzz/src/targets",
 ];
 
 #[test]

@@ -22,10 +22,8 @@ type Left<'a> = (Context<'a>, Round<'a>, Option<Caution>);
 
 /// What the contest tells of the declaration's own fit; `None` where none is asked.
 pub(super) fn weighed(whole: &Context<'_>, first: &Round<'_>) -> Result<Option<Told>, SearchError> {
-    // Groups that somebody declared say what hangs together, and too few rows tell nothing.
-    let groups = &whole.request.observations.groups;
-    let are_single = groups.windows(2).all(|pair| pair[0] != pair[1]);
-    if !is_asked(whole) || !are_single || !first.tells_structure() {
+    // Too few rows tell nothing.
+    if !is_asked(whole) || !first.tells_structure() {
         return Ok(None);
     }
     (whole.tell)(Stage::Weigh);
@@ -75,6 +73,10 @@ pub(super) fn settled<'a>(
     told: &Told,
 ) -> Result<Left<'a>, SearchError> {
     let found = &round.fitted.found;
+    // Groups that somebody declared say what hangs together, and the search knows of them.
+    if !whole.request.observations.rows_are_alone() {
+        return Ok((whole, round, None));
+    }
     if found.is_empty() && !told.is_open {
         let next = taken_up(&whole, told.causes.clone(), &round)?;
         return Ok((whole, next.unwrap_or(round), None));

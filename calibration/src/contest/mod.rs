@@ -8,6 +8,7 @@ mod problem;
 mod recorded;
 
 pub use recorded::Hypothesis;
+use recorded::leader;
 
 use evidence::families::Law;
 use evidence::{Outcome, Policy, Problem, contest};
@@ -95,8 +96,8 @@ impl Contest {
     pub fn told(&self, whole: &Context<'_>) -> Option<Told> {
         let outcome = self.of(&self.asked.problem)?;
         let (mut odds, mut best) = (outcome.odds(), self.read(&outcome));
-        best.contest = recorded::recorded(&outcome);
-        if best.is_nothing() {
+        best.contest = recorded::recorded(&outcome, self.policy.even);
+        if best.is_nothing() || self.asked.problem.rows.labels.is_some() {
             return Some(best);
         }
         let sample = whole.request.sample;
@@ -107,8 +108,11 @@ impl Contest {
             labelled.rows.labels = Some(of_row);
             if let Some(other) = self.of(&labelled).filter(|other| other.odds() - price > odds) {
                 odds = other.odds() - price;
-                best =
-                    Told { column: Some(column), contest: recorded::recorded(&other), ..self.read(&other) };
+                best = Told {
+                    column: Some(column),
+                    contest: recorded::recorded(&other, self.policy.even),
+                    ..self.read(&other)
+                };
             }
         }
         Some(best)
@@ -134,20 +138,16 @@ impl Contest {
             ..Told::default()
         };
         for finding in outcome.findings().iter().filter(|finding| finding.named) {
-            let shares = finding.set.iter().zip(&finding.shares);
-            let offered: Vec<(EffectId, f64, f64)> = shares
-                .filter_map(|(&(family, score), &share)| Some((effect(family)?, score, share)))
-                .collect();
-            let best = offered.iter().map(|(_, score, _)| *score).fold(f64::NEG_INFINITY, f64::max);
-            // Of causes that are one to the data the first of the catalogue stands for all.
-            let even = offered.iter().filter(|(_, score, _)| *score >= best - self.policy.even);
-            let Some(first) = even.map(|(effect, ..)| *effect).min() else {
+            let leader = leader(outcome, finding, self.policy.even);
+            let Some(first) = leader.and_then(effect) else {
                 told.is_open = true;
                 continue;
             };
             let p_value = (-finding.margin).exp().min(1.0);
             if told.causes.iter().all(|found| found.effect != first) {
-                let shares = offered.iter().map(|(effect, _, share)| (*effect, *share)).collect();
+                let shares = finding.set.iter().zip(&finding.shares);
+                let shares =
+                    shares.filter_map(|((family, _), share)| Some((effect(*family)?, *share))).collect();
                 told.causes.push(Found { effect: first, p_value, alike: vec![first], shares });
             }
         }

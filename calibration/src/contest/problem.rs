@@ -65,7 +65,7 @@ pub(super) fn asked(whole: &Context<'_>, fitted: &Fitted) -> Result<Asked, Searc
             count: poses.rows(),
             joints: building.joints,
             inputs: building.inputs.into_iter().map(|(_, input)| input).collect(),
-            labels: None,
+            labels: (!whole.request.observations.rows_are_alone()).then(|| of_groups(whole)),
             // Rows stand as they were written, and that is nearly always as they were measured; another order has no memory to show.
             in_order: true,
             given: building.given,
@@ -100,6 +100,15 @@ fn keep_what_speaks(problem: &mut Problem, whole: &Context<'_>, fitted: &Fitted)
         place.nominal.iter_mut().for_each(keep);
     }
     problem.components = speaks.iter().filter(|speaks| **speaks).count();
+}
+
+/// The declared group of each row.
+fn of_groups(whole: &Context<'_>) -> Vec<usize> {
+    let groups = &whole.request.observations.groups;
+    let mut known = groups.clone();
+    known.sort_unstable();
+    known.dedup();
+    groups.iter().map(|group| known.partition_point(|other| other < group)).collect()
 }
 
 /// Stated uncertainties of each value, where every row states them.

@@ -37,8 +37,26 @@ pub struct Hypothesis {
     pub left: Option<String>,
 }
 
+/// The family that stands for a finding: of the catalogue's effects that are one to the data the first. None where none is among those
+/// that explain it.
+pub(super) fn leader(outcome: &Outcome<'_>, finding: &Finding, even: f64) -> Option<usize> {
+    let offered = |family: usize| match outcome.families()[family].law {
+        Law::Offered(number) => Some(number),
+        _ => None,
+    };
+    let named = || finding.set.iter().filter_map(|&(family, score)| Some((offered(family)?, family, score)));
+    let best = named().map(|(.., score)| score).fold(f64::NEG_INFINITY, f64::max);
+    named()
+        .filter(|(.., score)| *score >= best - even)
+        .min_by_key(|(number, ..)| *number)
+        .map(|(_, family, _)| family)
+}
+
 /// All hypotheses of a contest, those that are told first, then by what they gain.
-pub(super) fn recorded(outcome: &Outcome<'_>) -> Vec<Hypothesis> {
+pub(super) fn recorded(outcome: &Outcome<'_>, even: f64) -> Vec<Hypothesis> {
+    let stands = |finding: &Finding| leader(outcome, finding, even).unwrap_or(finding.family);
+    let leaders: Vec<usize> = outcome.findings().iter().map(stands).collect();
+    let causes: Vec<usize> = outcome.findings().iter().map(|finding| finding.family).collect();
     let mut all: Vec<Hypothesis> = (outcome.contest().into_iter())
         .filter_map(|competitor| {
             let own = outcome.explain(competitor.family)?;
@@ -46,17 +64,18 @@ pub(super) fn recorded(outcome: &Outcome<'_>) -> Vec<Hypothesis> {
             let best = finding.map(|finding| finding.set.iter().map(|(_, score)| *score));
             let best = best.map(|scores| scores.fold(f64::NEG_INFINITY, f64::max));
             let behind = finding.and_then(|finding| Some(best? - score(finding, own.family)?));
-            let instead_of = finding.filter(|finding| finding.family != own.family);
+            let instead_of = finding.map(stands).filter(|leader| *leader != own.family);
+            let told = leaders.contains(&own.family) || (own.told && !causes.contains(&own.family));
             Some(Hypothesis {
                 name: name(outcome, own.family),
                 place: outcome.place(own.family),
                 driver: outcome.driver(own.family),
-                told: own.told,
+                told,
                 gain: competitor.gain.is_finite().then_some(competitor.gain),
                 price: own.price,
                 share: competitor.share,
                 behind,
-                instead_of: instead_of.map(|finding| name(outcome, finding.family)),
+                instead_of: instead_of.map(|leader| name(outcome, leader)),
                 shows: own.shows,
                 needs: own.needs,
                 left: competitor.steps.last().and_then(|step| why(outcome, step)),

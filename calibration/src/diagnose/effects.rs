@@ -287,8 +287,8 @@ fn causes(whole: &Context<'_>, found: &Found, others: &Others) -> Vec<Cause> {
             });
         }
     }
-    // Weighed ones by their shares.
-    causes.sort_by(|a, b| b.share.unwrap_or(0.0).total_cmp(&a.share.unwrap_or(0.0)));
+    // Weighed ones by their shares in percent.
+    causes.sort_by_key(|cause| std::cmp::Reverse((100.0 * cause.share.unwrap_or(0.0)).round() as u32));
     causes
 }
 

@@ -241,8 +241,10 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 
-fn place([x, y, z]: [f64; 3]) -> String {
-    format!("({x:.6}, {y:.6}, {z:.6})")
+fn place(parts: [f64; 3]) -> String {
+    // Further away than any number of micrometres has digits.
+    let shown = parts.map(|part| if part.abs() < 1e9 { format!("{part:.6}") } else { format!("{part:.6e}") });
+    format!("({})", shown.join(", "))
 }
 
 fn length(metres: f64) -> String {

@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use model_core::{ObservableId, Quantity as Measures, SymbolId, SymbolKind};
 use service::Instrument;
-use service::apply::{self, AsMeasured, Outside, Seen, Solver, in_vectors};
+use service::apply::{self, AsMeasured, Outside, Seen, Solver, Uncertain, in_vectors};
 use service::evaluation::{Evaluator, Exactness, Quantity, column_names, readings_of};
 use service::readings::ReadingsTable;
 use service::source::observables;
+use tables::formats::{Column, Kept, Texts};
 use tables::units;
 
 use super::Answer;
@@ -18,7 +19,7 @@ use crate::failure::Failure;
 use crate::output;
 #[cfg(feature = "point-clouds")]
 use crate::over_table::Model;
-use crate::over_table::{Opened, OverTable, Place};
+use crate::over_table::{Opened, OverTable, Place, numbers};
 use crate::{table_files, terminal};
 use model_core::names::listed;
 
@@ -51,6 +52,10 @@ pub struct Arguments {
     /// Write the correction, too: what the calibrated errors add to each column
     #[arg(long)]
     correction: bool,
+    /// Write the standard uncertainty of each column, by the covariance of an instrument file, and whether the row lies inside the measured
+    /// region
+    #[arg(long, conflicts_with = "solve")]
+    uncertainty: bool,
     /// Find the readings of the joints that point at what the table wants
     #[arg(long)]
     solve: bool,
@@ -137,6 +142,7 @@ fn correct_cloud(arguments: &Arguments) -> Result<(), Failure> {
     let of_tables = [
         ("--as", arguments.form.is_some()),
         ("--correction", arguments.correction),
+        ("--uncertainty", arguments.uncertainty),
         ("--solve", arguments.solve),
     ];
     if let Some((option, _)) = of_tables.iter().find(|(_, is_given)| *is_given) {
@@ -163,6 +169,9 @@ fn correct_cloud(arguments: &Arguments) -> Result<(), Failure> {
 
 fn correct(arguments: &Arguments) -> Result<(), Failure> {
     let Opened { chain, values, found, instrument, mut table } = arguments.table.open()?;
+    if arguments.uncertainty && instrument.is_none() {
+        return Err(no_instrument(arguments));
+    }
     if let (None, Some(instrument), Some(source)) = (arguments.form, &instrument, table.source_of_study())
         && let Some(seen) = AsMeasured::of(instrument, source)
         && arguments.table.observable.iter().all(|name| chain.observable(seen.observable).name == *name)
@@ -181,25 +190,59 @@ fn correct(arguments: &Arguments) -> Result<(), Failure> {
     table.want(&chain, &value.readings)?;
     // Says if a joint has the name of a column.
     column_names(&chain, &chosen)?;
-    let added: Vec<String> =
+    let mut added: Vec<String> =
         seen.iter().flat_map(|seen| seen.headers(&chain, arguments.correction)).collect();
+    let uncertain: Vec<Uncertain> = if arguments.uncertainty {
+        let Some(instrument) = &instrument else { unreachable!("a declaration was refused above") };
+        added.extend(seen.iter().flat_map(|seen| seen.uncertainty_headers(&chain)));
+        added.push(REGION.to_owned());
+        let of = chosen.iter().map(|&observable| Uncertain::of(instrument, &chain, observable, &values));
+        of.collect::<Result<_, _>>()?
+    } else {
+        Vec::new()
+    };
     let mut outside = Outside::new(found);
     arguments.table.write(table, &added, Place::Behind, |rows| {
         let readings: Vec<(SymbolId, &[f64])> =
             rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
-        outside.see(&chain, &readings, &value)?;
+        let is_outside = outside.see(&chain, &readings, &value)?;
         let values = value.columns(&readings, rows.count)?;
         let errors = error.as_ref().map(|error| error.columns(&readings, rows.count)).transpose()?;
-        let (mut columns, mut at) = (Vec::new(), 0);
-        for seen in &seen {
+        let (mut columns, mut beside, mut at) = (Vec::new(), Vec::new(), 0);
+        for (number, seen) in seen.iter().enumerate() {
             let own = at..at + seen.shown(&chain);
             at = own.end;
+            if let Some(uncertain) = uncertain.get(number) {
+                let covariance = uncertain.columns(&readings, rows.count)?;
+                beside.extend(seen.uncertainties(&values[own.clone()], &covariance));
+            }
             columns.extend(seen.columns(&values[own.clone()], errors.as_ref().map(|errors| &errors[own])));
         }
+        columns.extend(beside);
+        let mut columns = numbers(columns);
+        columns.extend(arguments.uncertainty.then(|| region(&is_outside)));
         Ok(columns)
     })?;
     outside.warning(&chain).iter().for_each(terminal::warn);
     Ok(())
+}
+
+/// The column that says where a row lies.
+const REGION: &str = "measured_region";
+
+/// That column.
+fn region(is_outside: &[bool]) -> Column {
+    let mut texts = Texts::default();
+    is_outside.iter().for_each(|is_outside| texts.push(if *is_outside { "outside" } else { "inside" }));
+    Column::Kept(Kept::Texts(texts))
+}
+
+/// Where uncertainties are asked of what has none.
+fn no_instrument(arguments: &Arguments) -> Failure {
+    Failure::Input(format!(
+        "--uncertainty needs the covariance of an instrument file, and `{}` is a declaration: give the instrument file that `calibrate` writes",
+        arguments.table.chain().display()
+    ))
 }
 
 /// Writes what the instrument shows under the headings of its data, in their units and notation.
@@ -217,14 +260,28 @@ fn correct_as_measured(
     let value = evaluator(Quantity::Value);
     let error = (arguments.correction || seen.needs_error()).then(|| evaluator(Quantity::Error));
     table.want(&chain, &value.readings)?;
+    let mut added = seen.headers(arguments.correction);
+    let uncertain =
+        arguments.uncertainty.then(|| Uncertain::of(instrument, &chain, seen.observable, &values));
+    let uncertain = uncertain.transpose()?;
+    if arguments.uncertainty {
+        added.extend(seen.uncertainty_headers());
+        added.push(REGION.to_owned());
+    }
     let mut outside = Outside::new(instrument.found.clone());
-    arguments.table.write(table, &seen.headers(arguments.correction), Place::OfTheirName, |rows| {
+    arguments.table.write(table, &added, Place::OfTheirName, |rows| {
         let readings: Vec<(SymbolId, &[f64])> =
             rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
-        outside.see(&chain, &readings, &value)?;
+        let is_outside = outside.see(&chain, &readings, &value)?;
         let values = value.columns(&readings, rows.count)?;
         let errors = error.as_ref().map(|error| error.columns(&readings, rows.count)).transpose()?;
-        Ok(seen.columns(&values, errors.as_deref(), arguments.correction))
+        let mut columns = numbers(seen.columns(&values, errors.as_deref(), arguments.correction));
+        if let Some(uncertain) = &uncertain {
+            let covariance = uncertain.columns(&readings, rows.count)?;
+            columns.extend(numbers(seen.uncertainties(&values, errors.as_deref(), &covariance)));
+            columns.push(region(&is_outside));
+        }
+        Ok(columns)
     })?;
     outside.warning(&chain).iter().for_each(terminal::warn);
     Ok(())
@@ -307,7 +364,7 @@ fn solve(arguments: &Arguments) -> Result<(), Failure> {
             }
         }
         out.push(solved.remaining);
-        Ok(out)
+        Ok(numbers(out))
     })?;
     outside.warning(&chain).iter().for_each(terminal::warn);
     if missed > 0 {

@@ -10,6 +10,7 @@ use model_core::escape::line;
 use report::shell_word;
 use report::wrap::paragraph;
 use tables::formats::{self, DataError, Input, Options};
+use tables::urdf::Robot;
 
 use super::Answer;
 use crate::failure::Failure;
@@ -21,25 +22,38 @@ use crate::{output, source, table_files, terminal};
 /// and NAME.toml, ready to run. What can be seen is not asked: which column is what, in which unit, which way angles
 /// run. Nothing is overwritten.
 ///
+/// With --urdf the declaration is made of a robot's URDF: its joints with origins, axes and limits. Columns of the data are named like the
+/// joints. Without data only the declaration is written.
+///
 /// Example: trueaxis init examples/course/secret.csv --out mount.toml
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Measured data: a table with a header
-    #[arg(required_unless_present = "list")]
+    #[arg(required_unless_present_any = ["list", "urdf"])]
     data: Option<PathBuf>,
     /// The kind of instrument, where the header does not say it plainly
     #[arg(long, value_name = "NAME", value_parser = TEMPLATES.iter().map(|template| template.name).collect::<Vec<_>>())]
     template: Option<String>,
+    /// A robot's description in URDF: the declaration is made of it
+    #[arg(long, value_name = "R.urdf", conflicts_with = "template")]
+    urdf: Option<PathBuf>,
+    /// The link of that robot that is measured; default: the one behind the most joints that move
+    #[arg(long, value_name = "LINK", requires = "urdf")]
+    tip: Option<String>,
     /// The study to write, the chain beside it; default: named like the data, beside them
     #[arg(long, value_name = "STUDY.toml")]
     out: Option<PathBuf>,
     /// Only list the kinds of instruments, with the columns that each looks for
-    #[arg(long, conflicts_with_all = ["data", "template", "out"])]
+    #[arg(long, conflicts_with_all = ["data", "template", "urdf", "out"])]
     list: bool,
 }
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
+    let robot = arguments.urdf.as_deref().map(robot).transpose()?;
+    if let (Some(robot), Some(file), None) = (&robot, &arguments.urdf, &arguments.data) {
+        return describe(arguments, robot, file);
+    }
     let Some(data) = arguments.data.as_ref().filter(|_| !arguments.list) else {
         let mut list = String::new();
         for one in TEMPLATES {
@@ -55,8 +69,18 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         ));
     }
     let look = look(data)?;
-    let named = arguments.template.as_deref().and_then(templates::named);
-    let (template, draft) = init::draft(&look, named)?;
+    let (name_of, what, draft) = match &robot {
+        Some(robot) => (
+            "robot",
+            "a robot as its URDF describes it",
+            init::robot::draft(robot, arguments.tip.as_deref(), &look)?,
+        ),
+        None => {
+            let named = arguments.template.as_deref().and_then(templates::named);
+            let (template, draft) = init::draft(&look, named)?;
+            (template.name, template.what, draft)
+        }
+    };
     let study_file = arguments.out.clone().unwrap_or_else(|| data.with_extension("toml"));
     let chain_file = study_file.with_extension("chain");
     let written = [&study_file, &chain_file];
@@ -67,12 +91,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
             study_file.with_extension("toml").display()
         )));
     }
-    if let Some(there) = written.into_iter().find(|file| fs::symlink_metadata(file).is_ok()) {
-        return Err(Failure::Input(format!(
-            "`{}` is there already, and nothing is overwritten: name another study with --out",
-            there.display()
-        )));
-    }
+    not_there(written)?;
     let names = init::Names {
         chain: &name(&chain_file)?,
         data: &beside(&study_file, data)?,
@@ -89,13 +108,47 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     }
     terminal::print_text(format!(
         "{}: {}\n  the declaration: {}\n  the study: {}\nnext: trueaxis calibrate {}\n",
-        template.name,
-        template.what,
+        name_of,
+        what,
         line(&chain_file.to_string_lossy()),
         line(&study_file.to_string_lossy()),
         shell_word(&study_file.display().to_string())
     ))?;
     Ok(Answer::Done)
+}
+
+/// A robot's description.
+fn robot(file: &Path) -> Result<Robot, Failure> {
+    let text = source::read(file)?;
+    Ok(Robot::of(&text.text).map_err(|mistake| text.mistake(mistake))?)
+}
+
+/// Writes the declaration of a robot alone.
+fn describe(arguments: &Arguments, robot: &Robot, file: &Path) -> Result<Answer, Failure> {
+    let chain_file = arguments.out.as_deref().unwrap_or(file).with_extension("chain");
+    not_there([&chain_file])?;
+    let described = init::robot::described(robot, arguments.tip.as_deref())?;
+    output::write_text(&chain_file, &described.chain)?;
+    for remark in &described.remarks {
+        terminal::note(format_args!("note: {remark}"));
+    }
+    terminal::print_text(format!(
+        "robot: a robot as its URDF describes it\n  the declaration: {0}\nnext: trueaxis identify {1}\n",
+        line(&chain_file.to_string_lossy()),
+        shell_word(&chain_file.display().to_string())
+    ))?;
+    Ok(Answer::Done)
+}
+
+/// Nothing is overwritten.
+fn not_there<'p>(files: impl IntoIterator<Item = &'p PathBuf>) -> Result<(), Failure> {
+    let there = files.into_iter().find(|file| fs::symlink_metadata(file).is_ok());
+    there.map_or(Ok(()), |there| {
+        Err(Failure::Input(format!(
+            "`{}` is there already, and nothing is overwritten: name another study with --out",
+            there.display()
+        )))
+    })
 }
 
 /// The data as they are looked at.

@@ -6,14 +6,17 @@ pub mod budget;
 pub mod calibrate;
 pub mod check;
 mod class;
+mod compare;
 mod completions;
 pub mod derive;
 mod eval;
+mod export;
 pub mod generate;
 pub mod identify;
 mod init;
 mod manual;
 pub mod simulate;
+mod verify;
 
 use crate::failure::Failure;
 
@@ -69,6 +72,9 @@ commands! {
     Eval => eval,
     Calibrate => calibrate,
     Apply => apply,
+    Compare => compare,
+    Verify => verify,
+    Export => export,
     Class => class,
     Completions => completions,
     Manual => manual,

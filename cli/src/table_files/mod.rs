@@ -9,7 +9,7 @@ use std::io;
 use std::path::Path;
 
 use service::Source;
-use tables::formats::{DataError, Input};
+use tables::formats::{self, DataError, Input, Options, TableReader};
 
 use crate::failure::Failure;
 use crate::source;
@@ -37,7 +37,10 @@ fn ending(path: &Path) -> String {
 }
 
 /// Refuses a name that promises a format that this build neither reads nor writes.
-fn known_format(path: &Path) -> Result<(), Failure> {
+///
+/// # Errors
+/// It does.
+pub fn known_format(path: &Path) -> Result<(), Failure> {
     if cfg!(not(feature = "parquet")) && ending(path) == "parquet" {
         return Err(failure(DataError::NoParquet { file: path.display().to_string() }));
     }
@@ -76,9 +79,20 @@ pub fn failure(error: DataError) -> Failure {
 /// # Errors
 /// It cannot be read.
 pub fn open_beside(study: &Source, path: &str, from: Option<&str>) -> Result<Input<'static>, DataError> {
-    let beside = study.beside(Path::new(path));
+    open_named(&study.beside(Path::new(path)), from)
+}
+
+/// Opens a table by its path.
+///
+/// # Errors
+/// It cannot be read, or promises a format that this build does not read.
+pub fn open_table(path: &Path, options: &Options) -> Result<Box<dyn TableReader>, DataError> {
+    formats::open(open_named(path, None)?, &path.display().to_string(), options)
+}
+
+fn open_named(beside: &Path, from: Option<&str>) -> Result<Input<'static>, DataError> {
     let unreadable = |error: &io::Error| {
-        let why = match source::not_readable(&beside, error) {
+        let why = match source::not_readable(beside, error) {
             Failure::Read { why, .. } => why,
             other => other.to_string(),
         };
@@ -90,7 +104,7 @@ pub fn open_beside(study: &Source, path: &str, from: Option<&str>) -> Result<Inp
         };
         DataError::Unreadable { file: beside.display().to_string(), why }
     };
-    open(&beside).map_err(|error| unreadable(&error))
+    open(beside).map_err(|error| unreadable(&error))
 }
 
 /// Opens a data file.

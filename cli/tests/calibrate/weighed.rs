@@ -1,4 +1,5 @@
-//! Causes against what hangs together along the rows, through the whole command: an effect along a slow path. The instrument is simulated here, by turns written out, and by nothing of the product.
+//! The contest through the whole command: an effect along a slow path, and which of several effects one function is. The instrument is
+//! simulated here, by turns written out, and by nothing of the product.
 
 use std::f64::consts::PI;
 
@@ -110,4 +111,78 @@ fn an_effect_along_a_slow_path_is_found_and_not_taken_for_memory() {
         .write("measured.csv", data);
     let report = report(&folder);
     assert_eq!(causes(&report), ["\"temperature\" \"Rx\""], "{:?}", report["cautions"]);
+}
+
+/// An elevation encoder off centre by 110″ of half of its circle, seen over 60°: harmonics of fifth and seventh order follow it as well.
+fn off_centre(folder: &Folder) {
+    let mut drawn = Drawn(8);
+    let mut data = String::from("azimuth,elevation,x,y,z,number\n");
+    for row in 0..300 {
+        let [azimuth, elevation] =
+            [360.0 * drawn.even() - 180.0, 15.0 + 60.0 * drawn.even()].map(f64::to_radians);
+        let turned = elevation - 95.0 * ARCSEC * elevation.cos() - 50.0 * ARCSEC * elevation.sin();
+        let seen = sight(azimuth, turned, [15.0 * ARCSEC, -9.0 * ARCSEC], 0.0);
+        data += &line(&mut drawn, [azimuth, elevation], seen, &row.to_string());
+    }
+    folder.write("mount.chain", MOUNT).write("study.toml", STUDY).write("measured.csv", data);
+}
+
+#[test]
+fn one_low_order_is_told_and_not_two_high_ones_and_the_contest_says_why() {
+    let folder = Folder::new("weighed-off-centre");
+    off_centre(&folder);
+    let report = report(&folder);
+    assert_eq!(causes(&report), ["\"elevation\" \"Rx\""], "{:?}", report["effects"]);
+    let effect = &report["effects"][0];
+    assert_eq!(effect["form"]["order"], 1, "{effect}");
+    assert_eq!(effect["selected_in_folds"], 1.0, "{effect}");
+    let listed = effect["causes"].as_array().expect("a list");
+    let shares: Vec<f64> = listed.iter().filter_map(|cause| cause["share"].as_f64()).collect();
+    assert!(shares.len() > 1 && shares.iter().sum::<f64>() <= 1.0 + 1e-9, "{shares:?}");
+    assert!(shares.windows(2).all(|pair| pair[0] >= pair[1]), "{shares:?}");
+    let contest = report["contest"].as_array().expect("a list");
+    let named = |name: &str| contest.iter().find(|own| own["name"] == name).expect("it competed");
+    assert_eq!(named("encoder eccentricity of elevation")["told"], true);
+    let flexure = named("gravity flexure of tube about x");
+    assert_eq!(flexure["instead_of"], "encoder eccentricity of elevation", "{flexure}");
+    assert!(flexure["behind"].as_f64().expect("nats") < 3.0, "{flexure}");
+}
+
+#[test]
+fn a_suspected_cause_is_explained() {
+    let folder = Folder::new("weighed-explain");
+    off_centre(&folder);
+    let run = folder.trueaxis(&["calibrate", "study.toml", "--explain", "Gravity flexure tube"]);
+    assert_eq!(run.code, 0, "{run}");
+    let told = run.stdout.split_once("Why, or why not").expect("a section").1;
+    assert!(told.contains("gravity flexure of tube about x: "), "{run}");
+    assert!(told.contains("behind encoder eccentricity of elevation"), "{run}");
+    let run = folder.trueaxis(&["calibrate", "study.toml", "--out", "out", "--explain", "warp of spacetime"]);
+    assert_eq!(run.code, 2, "{run}");
+    assert!(run.stderr.contains("no explanation that competed"), "{run}");
+    assert!(!folder.names().contains(&"out".to_owned()), "{run}");
+}
+
+#[test]
+fn an_index_that_takes_up_a_far_temperature_is_said_to_be_at_zero_of_it() {
+    let mut drawn = Drawn(11);
+    let mut data = String::from("azimuth,elevation,x,y,z,temperature\n");
+    for _ in 0..200 {
+        let [azimuth, elevation] =
+            [360.0 * drawn.even() - 180.0, 15.0 + 60.0 * drawn.even()].map(f64::to_radians);
+        let temperature = 14.0 + 12.0 * drawn.even();
+        let seen =
+            sight(azimuth, elevation, [15.0 * ARCSEC, -9.0 * ARCSEC], 3.0 * ARCSEC * (temperature - 20.0));
+        data += &line(&mut drawn, [azimuth, elevation], seen, &format!("{temperature:.4}"));
+    }
+    let folder = Folder::new("weighed-zero");
+    let search = "[search]\ninputs = [\"temperature\"]\n";
+    folder
+        .write("mount.chain", MOUNT)
+        .write("study.toml", format!("{STUDY}{search}"))
+        .write("measured.csv", data);
+    let report = report(&folder);
+    assert_eq!(causes(&report), ["\"temperature\" \"Rx\""], "{:?}", report["cautions"]);
+    // The effect is written at the fork; the index is the tube's, and takes up what the effect has of a constant.
+    assert_eq!(report["at_zero"][0]["errors"], serde_json::json!(["elevation_index"]));
 }

@@ -121,11 +121,3 @@ fn without_bounds(mut file: Vec<u8>) -> Vec<u8> {
     file[179..227].fill(0);
     file
 }
-
-#[test]
-fn a_file_is_corrected_in_its_own_place() {
-    let folder = folder("cloud_in_place", &["v14f6.laz"]);
-    let after = Whole::of(&applied(&folder, "v14f6.laz", "v14f6.laz", &[]));
-    assert_steps("v14f6", &after.steps(), &steps("v14f6"));
-    assert_eq!(folder.names(), ["errors.toml", "scanner.chain", "v14f6.laz"]);
-}

@@ -6,6 +6,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod attacked;
 mod by_time;
 mod kept;
 mod many;

@@ -6,6 +6,7 @@ mod support;
 mod calibrations;
 mod claims;
 mod declarations;
+mod handed_on;
 mod messages;
 mod seen;
 

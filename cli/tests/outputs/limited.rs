@@ -1,5 +1,6 @@
 //! Where memory is limited, a command works, or says that the limit is too low and ends as for any bad input.
 
+use std::fs;
 use std::process::Command;
 
 use crate::shaft;
@@ -32,26 +33,77 @@ fn wide() -> String {
     )
 }
 
+/// Every command of the program, with what it reads in the folder. What names a folder or file to write is removed before each run.
+const COMMANDS: [&str; 19] = [
+    "init measured.csv --template alt-azimuth --out begun.toml",
+    "derive wide.chain",
+    "derive wide.chain --format latex",
+    "identify shaft.chain",
+    "identify study.toml",
+    "bound wide.chain --sizes wide.toml",
+    "check claims.toml",
+    "budget wide.chain --sizes wide.toml",
+    "generate wide.chain --language rust --out wide.rs",
+    "simulate shaft.chain --errors e.toml --poses 100000 --noise 1arcsec --seed 1 --out made.csv",
+    "eval shaft.chain --errors e.toml --data poses.csv --out out.csv",
+    "calibrate study.toml --out result",
+    "apply shaft.chain --errors e.toml --data poses.csv --as vector --out out.csv",
+    "apply kept/instrument.toml --data measured.csv --out out.csv",
+    "class new --students names.csv --seed phrase --level 1 --out class",
+    "class grade handed --key handed.key.toml",
+    "completions bash",
+    "manual --out pages",
+    "derive nowhere.chain",
+];
+/// What they write.
+const WRITTEN: [&str; 9] = [
+    "begun.toml",
+    "begun.chain",
+    "wide.rs",
+    "made.csv",
+    "out.csv",
+    "result",
+    "class",
+    "class.key.toml",
+    "pages",
+];
+
 #[test]
 fn every_command_works_within_a_limit_or_says_that_it_is_too_low() {
     let folder = shaft("limited");
-    folder.write("wide.chain", wide()).write("wide.toml", "\"e*\" = \"1 arcsec\"\n");
-    let commands = [
-        "derive wide.chain",
-        "generate wide.chain --language rust --out wide.rs",
-        "bound wide.chain --sizes wide.toml",
-        "calibrate study.toml --out result",
-        "eval shaft.chain --errors e.toml --data poses.csv --out out.csv",
-    ];
+    folder
+        .write("wide.chain", wide())
+        .write("wide.toml", "\"e*\" = \"1 arcsec\"\n")
+        .write("names.csv", "name\nAda\nBo\n")
+        .write(
+            "claims.toml",
+            "chain = \"shaft.chain\"\n[[claim]]\nname = \"one\"\ncount = { errors = \"*\", equals = 1 }\n",
+        );
+    crate::done(&crate::words(&folder, "calibrate study.toml --out kept"));
+    crate::done(&crate::words(
+        &folder,
+        "class new --students names.csv --seed phrase --level 1 --out handed",
+    ));
+    let before = folder.names();
     let mut refused = 0;
-    for command in commands {
-        for limit_mb in [1000, 100, 50] {
+    for command in COMMANDS {
+        let remove = || {
+            for name in WRITTEN {
+                let place = folder.0.join(name);
+                let _ = if place.is_dir() { fs::remove_dir_all(place) } else { fs::remove_file(place) };
+            }
+        };
+        remove();
+        let free = crate::words(&folder, command);
+        for limit_mb in [1000, 300, 100, 50] {
+            remove();
             let run = within(&folder, limit_mb, command);
-            let is_told = run
-                .stderr
-                .contains(&format!("a limit of {} MB of memory is too low", limit_mb * 1024 / 1000));
-            assert!(run.code == 0 || run.code == 2 && is_told, "{command}, {limit_mb} MB: {run}");
-            refused += usize::from(run.code == 2);
+            let is_told = run.stderr.contains("of memory is too low for this command: ");
+            assert!(run.code == free.code || run.code == 2 && is_told, "{command}, {limit_mb} MB: {run}");
+            if run.code != free.code {
+                refused += 1;
+                assert_eq!(folder.names(), before, "{command}, {limit_mb} MB: nothing is written");
+            }
         }
     }
     assert!(refused > 0, "some limit is too low");

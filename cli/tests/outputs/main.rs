@@ -249,6 +249,55 @@ mod links {
     }
 }
 
+/// A limit of the size of files stands for a full disk: both are told by a write that fails. What was there stays, and nothing is left.
+#[cfg(unix)]
+#[test]
+fn a_disk_that_is_full_is_told_and_what_was_there_stays() {
+    let folder = shaft("full");
+    folder.write("poses.csv", format!("reading [deg]\n{}", "10.25\n".repeat(20_000)));
+    folder.write("out.csv", "what stood there").write("wide.chain", full_chain());
+    fs::create_dir(folder.0.join("there")).expect("a folder");
+    folder.write("there/report.json", "what stood there");
+    let before = folder.names();
+    for command in [
+        "eval shaft.chain --errors e.toml --data poses.csv --out out.csv",
+        "eval shaft.chain --errors e.toml --data poses.csv --out new.csv",
+        "apply shaft.chain --errors e.toml --data poses.csv --as vector --out out.csv",
+        "simulate shaft.chain --errors e.toml --poses 20000 --noise 1arcsec --seed 1 --out out.csv",
+        "generate wide.chain --language c --out out.c",
+        "calibrate study.toml --out there",
+        "calibrate study.toml --out new",
+        "eval shaft.chain --errors e.toml --data poses.csv --out /dev/full",
+    ] {
+        // Of blocks of 512 bytes; a report alone has more.
+        let script = "trap '' XFSZ; ulimit -f 12; exec \"$@\"";
+        let output = std::process::Command::new("sh")
+            .args(["-c", script, "sh", env!("CARGO_BIN_EXE_trueaxis")])
+            .args(command.split(' '))
+            .current_dir(&folder.0)
+            .output()
+            .expect("a shell starts");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{command}: {said}");
+        assert!(said.lines().any(|line| line.starts_with("error: ")), "{command}: {said}");
+        assert_eq!(folder.names(), before, "{command}");
+    }
+    assert_eq!(folder.read("out.csv"), "what stood there");
+    let there = Folder(folder.0.join("there"));
+    assert_eq!(there.names(), ["report.json"]);
+    assert_eq!(there.read("report.json"), "what stood there");
+}
+
+/// A declaration whose generated code is long.
+#[cfg(unix)]
+fn full_chain() -> String {
+    let errors: Vec<String> = (0..200).map(|number| format!("Rx(e{number})")).collect();
+    format!(
+        "chain Wide {{ body top on ground {{ motion: Rz(turn); motion_error: {}; }} observe mark: point(0.1, 0.2, 0.3) of top; }}",
+        errors.join(", ")
+    )
+}
+
 /// Interrupted between two rows, a command leaves what it found: neither a part of its output, nor what it writes that into.
 #[cfg(unix)]
 #[test]

@@ -10,6 +10,7 @@ mod kept;
 mod many;
 mod orders;
 mod round_trip;
+mod sexagesimal;
 mod tpoint;
 
 use support::{Folder, Run};

@@ -7,4 +7,4 @@ mod names;
 
 pub use chosen::chosen;
 pub use members::catalogue;
-pub use names::{Name, Published, known_names, published};
+pub use names::{Kind as MountKind, Name, PointingTerm, PointingTerms, Published, known_names, published};

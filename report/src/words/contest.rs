@@ -67,8 +67,8 @@ pub const MEANING: &str = "Evidence is counted in nats. One nat means odds of 2.
                            over these data.";
 
 /// Why no contest was held.
-pub const NONE_HELD: &str = "No contest was held, so there are no figures to show. A contest needs one kind of observation, known \
-                             objects, no groups, and at most 4,000 values.";
+pub const NONE_HELD: &str = "No contest was held. A contest needs one kind of observation of known objects, exact readings, and at most \
+                             4,000 measured values.";
 
 /// `2.1 nats`
 fn nats(value: f64) -> String {

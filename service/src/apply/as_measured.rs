@@ -8,9 +8,15 @@ use observe::kinds::{Filled, Shows};
 use study::{Conversion, SourcePlan};
 use tables::formats::ColumnName;
 
+use super::uncertain::along;
 use crate::instrument::Instrument;
 
 const ARCSEC: f64 = PI / 648_000.0;
+
+/// Steps of slopes against the length of the vector.
+///
+/// Source: the cube root of the rounding unit, at which truncation and rounding of a central difference are alike.
+const STEP: f64 = 6e-6;
 
 /// The columns of one observable, as a source of a study has them.
 #[derive(Clone)]
@@ -66,15 +72,49 @@ impl AsMeasured {
     #[must_use]
     pub fn headers(&self, correction: bool) -> Vec<String> {
         let own = self.columns.iter().map(|column| column.heading.clone());
-        let corrections = self.columns.iter().filter(|_| correction).map(|column| {
-            let name = format!("{}_correction", ColumnName::parse(&column.heading).stem);
-            match column.quantity {
-                Quantity::Angle => format!("{name} [arcsec]"),
-                Quantity::Length => format!("{name} [{}]", column.unit.1),
-                Quantity::Number => name,
-            }
-        });
+        let corrections =
+            self.columns.iter().filter(|_| correction).map(|column| column.beside("correction"));
         own.chain(corrections).collect()
+    }
+
+    /// Headings of the standard uncertainties of the columns.
+    #[must_use]
+    pub fn uncertainty_headers(&self) -> Vec<String> {
+        self.columns.iter().map(|column| column.beside("uncertainty")).collect()
+    }
+
+    /// The standard uncertainty of each column in the unit of its correction, from the vector with the errors, what the errors add to it, and the
+    /// [covariance](super::Uncertain::columns) of the vector.
+    #[must_use]
+    pub fn uncertainties(
+        &self,
+        value: &[Vec<f64>],
+        error: Option<&[Vec<f64>]>,
+        covariance: &[Vec<f64>],
+    ) -> Vec<Vec<f64>> {
+        let rows = value.first().map_or(0, Vec::len);
+        let mut out = vec![Vec::with_capacity(rows); self.columns.len()];
+        for row in 0..rows {
+            let at = |columns: &[Vec<f64>]| Vector3::from_fn(|axis, _| columns[axis][row]);
+            let vector = at(value);
+            let nominal = error.map_or(vector, |error| vector - at(error));
+            let step = STEP * vector.norm().max(f64::MIN_POSITIVE);
+            let sides = [0, 1, 2].map(|axis| {
+                let moved = |by: f64| {
+                    let mut vector = vector;
+                    vector[axis] += by;
+                    (self.filled.of)(&Shown { source: &self.source, vector, nominal })
+                };
+                [moved(step), moved(-step)]
+            });
+            for (place, (column, own)) in self.columns.iter().zip(&mut out).enumerate() {
+                let slope = |[above, below]: &[[f64; 3]; 2]| {
+                    column.correction(above[place], below[place]) / (2.0 * step)
+                };
+                own.push(along(&[slope(&sides[0]), slope(&sides[1]), slope(&sides[2])], covariance, row));
+            }
+        }
+        out
     }
 
     /// The columns that are written, from the vector with the errors and what the errors add to it.
@@ -101,6 +141,16 @@ impl AsMeasured {
 }
 
 impl Written {
+    /// The heading of what is written beside it in the unit of its correction.
+    fn beside(&self, what: &str) -> String {
+        let name = format!("{}_{what}", ColumnName::parse(&self.heading).stem);
+        match self.quantity {
+            Quantity::Angle => format!("{name} [arcsec]"),
+            Quantity::Length => format!("{name} [{}]", self.unit.1),
+            Quantity::Number => name,
+        }
+    }
+
     /// What stands in the file for a number in SI.
     fn number(&self, si: f64) -> f64 {
         let mut plain = self.conversion.plain(si);

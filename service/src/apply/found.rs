@@ -49,7 +49,7 @@ impl Outside {
         Self { ranges: found.into_iter().map(watched).collect(), rows: 0, outside: 0 }
     }
 
-    /// Looks at some rows.
+    /// Looks at some rows, and says of each whether it is outside.
     ///
     /// # Errors
     /// The evaluator lacks a reading.
@@ -58,7 +58,7 @@ impl Outside {
         chain: &Chain,
         readings: &[(SymbolId, &[f64])],
         evaluator: &Evaluator,
-    ) -> Result<(), Refusal> {
+    ) -> Result<Vec<bool>, Refusal> {
         let rows = readings.first().map_or(0, |(_, column)| column.len());
         self.rows += rows;
         let mut is_outside = vec![false; rows];
@@ -84,7 +84,7 @@ impl Outside {
             }
         }
         self.outside += is_outside.iter().filter(|is| **is).count();
-        Ok(())
+        Ok(is_outside)
     }
 
     /// What was counted.

@@ -4,8 +4,10 @@ mod as_measured;
 mod found;
 mod seen;
 mod solve;
+mod uncertain;
 
 pub use as_measured::{AsMeasured, in_vectors};
 pub use found::{Counted, Outside};
 pub use seen::{As, Seen};
 pub use solve::Solver;
+pub use uncertain::Uncertain;

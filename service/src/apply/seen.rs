@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use model_core::{Chain, ObservableId, ObservableKind, Quantity};
 use observe::spherical_of_direction;
 
+use super::uncertain::along;
 use crate::refusal::Refusal;
 
 /// How a direction is written.
@@ -106,6 +107,37 @@ impl Seen {
             }
         }
         columns
+    }
+
+    /// Headers of the standard uncertainties: of each angle in arc seconds, of each component in its own unit.
+    pub fn uncertainty_headers(&self, chain: &Chain) -> Vec<String> {
+        let name = &chain.observable(self.observable).name;
+        let small = if self.form == As::Vector { "" } else { " [arcsec]" };
+        self.parts.iter().map(|part| format!("{name}_{part}_uncertainty{small}")).collect()
+    }
+
+    /// The standard uncertainty of each column, from the value with the errors and its [covariance](super::Uncertain::columns).
+    pub fn uncertainties(&self, value: &[Vec<f64>], covariance: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let rows = value[0].len();
+        if self.form == As::Vector {
+            let count = value.len();
+            let own =
+                |at: usize| (0..rows).map(|row| covariance[at * count + at][row].max(0.0).sqrt()).collect();
+            return (0..count).map(own).collect();
+        }
+        let mut columns = [Vec::with_capacity(rows), Vec::with_capacity(rows)];
+        for (row, ((x, y), z)) in value[0].iter().zip(&value[1]).zip(&value[2]).enumerate() {
+            let (x, y, z) = (*x, *y, *z);
+            let flat = x.hypot(y);
+            let square = flat * flat + z * z;
+            // Of atan2(x, y), and of the elevation above the xy plane.
+            let azimuth = [y / (flat * flat), -x / (flat * flat), 0.0];
+            let elevation = [-x * z / (flat * square), -y * z / (flat * square), flat / square];
+            for (column, gradient) in columns.iter_mut().zip([azimuth, elevation]) {
+                column.push(along(&gradient, covariance, row) / ARCSEC);
+            }
+        }
+        columns.into()
     }
 
     /// The vector that columns say, as they were read: of length one for a direction.

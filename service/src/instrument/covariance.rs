@@ -2,6 +2,7 @@
 
 use model_core::mistake::Mistake;
 use model_core::{Chain, SymbolId, SymbolKind, names};
+use nalgebra::{DMatrix, SymmetricEigen};
 use toml::Spanned;
 
 use super::file;
@@ -10,6 +11,9 @@ use crate::source::Source;
 
 /// Entries across the diagonal are the same to this part of the two standard uncertainties: what was written and read again is.
 const SAME: f64 = 1e-9;
+
+/// No correlation matrix has an eigenvalue below zero by more than this times its size: rounding of what was written.
+const ROUNDING: f64 = 1e-9;
 
 /// The covariance of estimates, SI.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,8 +87,23 @@ impl Covariance {
                 }
             }
         }
+        let scale = |at_row: usize| at(at_row, at_row).sqrt().max(f64::MIN_POSITIVE);
+        let count = symbols.len();
+        let correlation = DMatrix::from_fn(count, count, |a, b| at(a, b) / scale(a) / scale(b));
+        let smallest = SymmetricEigen::new(correlation).eigenvalues.iter().copied().fold(0.0, f64::min);
+        if smallest.is_nan() || smallest < -ROUNDING * count as f64 {
+            let message = "this is no covariance: a sum of these estimates would have a variance below zero";
+            return wrong(written.rows.span(), message.to_owned(), "write the covariance of one fit");
+        }
         let rows = rows.iter().map(|row| row.get_ref().iter().map(|number| *number.get_ref()).collect());
         Ok(Self { of: symbols, undetermined, rows: rows.collect() })
+    }
+
+    /// The covariance of two estimates, SI; zero of what was not estimated.
+    #[must_use]
+    pub fn between(&self, one: SymbolId, other: SymbolId) -> f64 {
+        let at = |symbol| self.of.iter().position(|own| *own == symbol);
+        at(one).zip(at(other)).map_or(0.0, |(row, column)| self.rows[row][column])
     }
 
     /// The standard uncertainty of an estimate, SI; `None` where the data do not determine it by itself.

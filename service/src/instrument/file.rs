@@ -37,14 +37,17 @@ pub(super) struct Contents {
     pub found_over: Ranges,
     /// How sure the estimates are.
     pub covariance: Option<Covariance>,
+    /// How uncertain one observation of each source is.
+    #[serde(default)]
+    pub noise: Vec<Noise>,
     /// What the columns of the data mean, as a study says it.
     pub study: Option<Study>,
     /// How `apply` writes what is observed, source by source.
     #[serde(default)]
     pub corrected: Vec<BTreeMap<Spanned<String>, Corrected>>,
     /// Where it came from: for people, and for other programs.
-    #[serde(rename = "provenance")]
-    _provenance: Option<toml::Table>,
+    #[serde(default)]
+    pub provenance: toml::Table,
 }
 
 /// `[covariance]`.
@@ -58,6 +61,19 @@ pub(super) struct Covariance {
     pub undetermined: Vec<Spanned<String>>,
     /// SI, row by row.
     pub rows: Spanned<Vec<Spanned<Vec<Spanned<f64>>>>>,
+}
+
+/// A source of `[[noise]]`.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(super) struct Noise {
+    /// The residual components: for people.
+    #[serde(rename = "components")]
+    pub _components: Option<Vec<String>>,
+    /// The standard deviation of each, SI.
+    pub sigma: Spanned<Vec<Spanned<f64>>>,
+    /// The degrees of freedom that they were estimated with; none where they are known.
+    pub degrees_of_freedom: Option<Spanned<f64>>,
 }
 
 /// A column of `[[corrected]]`.

@@ -2,6 +2,7 @@
 
 mod covariance;
 mod file;
+mod noise;
 mod written;
 
 use std::collections::BTreeMap;
@@ -9,7 +10,7 @@ use std::collections::BTreeMap;
 use model_core::mistake::{Mistake, Mistakes};
 use model_core::unit::Unit;
 use model_core::{Chain, SymbolId, SymbolKind};
-use study::Headings;
+use study::{Headings, Study};
 
 use crate::errors_file::{FoundOver, Given};
 use crate::refusal::Refusal;
@@ -18,6 +19,7 @@ use crate::warn::Warn;
 
 pub use covariance::Covariance;
 pub use file::VERSION;
+pub use noise::Noise;
 pub use written::instrument;
 
 /// A calibrated instrument.
@@ -35,12 +37,18 @@ pub struct Instrument {
     pub found: Vec<FoundOver>,
     /// How sure the estimates are; none where the data did not say.
     pub covariance: Option<Covariance>,
+    /// How uncertain one observation of each source is; empty where the file does not say.
+    pub noise: Vec<Noise>,
+    /// What its study says of columns, as it is written.
+    pub study: Option<Study>,
     /// What the columns of its data mean.
     pub headings: Option<Headings>,
     /// How what is observed is written, source by source, by the keys of `[observed]`.
     pub corrected: Vec<BTreeMap<String, Heading>>,
     /// The last day on which it counts, as `2027-06-30`.
     pub valid_until: Option<String>,
+    /// The day of the calibration, as `2026-11-21`, if the file says so.
+    pub made: Option<String>,
 }
 
 /// How a column of what is observed is written.
@@ -82,12 +90,27 @@ impl Instrument {
         }
         let covariance =
             file.covariance.as_ref().map(|own| Covariance::of(source, &chain, own)).transpose()?;
-        let study = file.study.clone().map(|study| study.inside(&source.text).headings(&chain));
-        let headings = study.transpose().map_err(|mistakes| source.mistakes(&mistakes))?;
+        let study = file.study.clone().map(|study| study.inside(&source.text));
+        let headings = study.as_ref().map(|study| study.headings(&chain));
+        let headings = headings.transpose().map_err(|mistakes| source.mistakes(&mistakes))?;
         let corrected = corrected(source, &file, headings.as_ref())?;
         let valid_until = file.valid_until.as_ref().and_then(|date| date.get_ref().date);
         let valid_until = valid_until.map(|date| date.to_string());
-        Ok(Self { chain, declaration, values, named, found, covariance, headings, corrected, valid_until })
+        let made = file.provenance.get("date").and_then(|date| date.as_str().map(str::to_owned));
+        Ok(Self {
+            noise: noise::of_sources(source, &file.noise, headings.as_ref())?,
+            chain,
+            declaration,
+            values,
+            named,
+            found,
+            covariance,
+            study,
+            headings,
+            corrected,
+            valid_until,
+            made,
+        })
     }
 
     /// How large each error may be by this calibration, SI, indexed by [`SymbolId`]: its value and two standard uncertainties. Of those

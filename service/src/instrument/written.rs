@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use fit::noise::Layout;
 use model_core::unit::Unit;
 use model_core::{Chain, Quantity, SymbolKind};
 use report::Reported;
@@ -48,6 +49,7 @@ pub fn instrument(
     text.push_str(&constants(&calibration.chain, &calibration.after.values));
     text.push_str(&errors_file::ranges_of_readings(&calibration.chain, &over));
     text.push_str(&covariance(reported));
+    text.push_str(&noise(reported));
     text.push_str(&study(reported, observed));
     text.push_str(&provenance(reported));
     Some(text)
@@ -104,6 +106,39 @@ fn covariance(reported: &Reported<'_>) -> String {
         let _ = writeln!(text, "  [{}],", numbers.join(", "));
     }
     text + "]\n"
+}
+
+/// How uncertain one observation of each source is, whatever the row before says of it; rows that were set aside do not count.
+fn noise(reported: &Reported<'_>) -> String {
+    let (fit, observations) = (&reported.calibration.after, reported.observations);
+    let (sigma, layout) = (fit.noise.sigma_without_memory(), Layout::of(observations));
+    let counts = |row: usize| fit.residuals.weight.get(row).is_some_and(|weight| *weight > 0.0);
+    let mut text = String::new();
+    for series in &observations.poses.series {
+        let components = series.measure.components();
+        let own = sigma.get(layout.of_rows(series.rows.clone())).unwrap_or_default();
+        let kept = || series.rows.clone().zip(own.chunks_exact(components)).filter(|(row, _)| counts(*row));
+        let count = kept().count() as f64;
+        let rms = |at: usize| (kept().map(|(_, own)| own[at] * own[at]).sum::<f64>() / count).sqrt();
+        let numbers: Vec<f64> = (0..components).map(rms).collect();
+        if numbers.iter().any(|sigma| !sigma.is_finite() || *sigma <= 0.0) {
+            return String::new();
+        }
+        let names: Vec<String> =
+            series.measure.component_names().iter().map(|name| Value::from(*name).to_string()).collect();
+        let numbers: Vec<String> = numbers.iter().map(|sigma| format!("{sigma:?}")).collect();
+        let _ = writeln!(
+            text,
+            "\n[[noise]]\ncomponents = [{}]\nsigma = [{}]",
+            names.join(", "),
+            numbers.join(", ")
+        );
+        let is_estimated = fit.parameter_degrees_of_freedom.iter().any(|own| own.is_finite());
+        if is_estimated && fit.degrees_of_freedom.is_finite() && fit.degrees_of_freedom >= 1.0 {
+            let _ = writeln!(text, "degrees-of-freedom = {:?}", fit.degrees_of_freedom);
+        }
+    }
+    format!("\n# Standard deviation of one observation, SI, component by component, source by source.{text}")
 }
 
 /// What the study says of columns, and how its data write what is observed.

@@ -11,6 +11,7 @@ use super::header::{ColumnName, unique};
 use super::packed::no_text;
 use super::records::{Dialect, Line, Record, RecordError, Records, Row};
 use super::separator::guess_separator;
+use super::sexagesimal::sexagesimal;
 use super::{Cell, Cells, Chunk, DataError, Form, Kept, Options, TableReader, Wanted};
 
 /// How much of a file is looked at to see its separator.
@@ -189,7 +190,7 @@ impl Table {
     }
 
     /// The number in a cell.
-    fn number(&self, row: &Row<'_>, marks: &mut Marks, column: usize) -> Result<f64, DataError> {
+    fn number(&self, row: &Row<'_>, marks: &mut Marks, column: usize, factor: f64) -> Result<f64, DataError> {
         let text = self.text(row, column)?.trim();
         let cell = || self.cell(row.record, row.number, column);
         match marks.read(text, self.separator) {
@@ -197,7 +198,8 @@ impl Table {
             Some(Err(why)) => Err(DataError::MixedMarks { cell: cell(), why }),
             Some(_) => Err(DataError::NotFinite { cell: cell(), text: clipped(text) }),
             None if text.is_empty() => Err(DataError::EmptyCell { cell: cell() }),
-            None => Err(DataError::NotANumber { cell: cell(), text: clipped(text) }),
+            None => sexagesimal(text, factor)
+                .ok_or_else(|| DataError::NotANumber { cell: cell(), text: clipped(text) }),
         }
     }
 
@@ -223,7 +225,7 @@ impl Table {
             match (want.form, cells) {
                 (Form::Number(factor), Cells::Numbers(numbers)) => {
                     bytes += size_of::<f64>();
-                    numbers.push(self.number(row, marks, want.column)? * factor);
+                    numbers.push(self.number(row, marks, want.column, factor)? * factor);
                 }
                 (Form::Label, Cells::Labels(texts)) => {
                     let text = self.text(row, want.column)?;

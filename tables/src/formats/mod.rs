@@ -24,6 +24,7 @@ pub mod part;
 mod quote;
 mod records;
 mod separator;
+mod sexagesimal;
 pub mod sha256;
 mod texts;
 pub mod tpoint;
@@ -40,6 +41,7 @@ pub use input::{Extent, Input, Ranged};
 pub use number::push_number;
 pub use options::Options;
 pub use quote::write_row;
+pub use sexagesimal::sexagesimal;
 pub use texts::Texts;
 pub use write::{Written, write_rows};
 

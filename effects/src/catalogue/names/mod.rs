@@ -3,9 +3,10 @@
 //! A name is published with a formula, across and along the line of sight; it belongs to every effect of a chain whose
 //! first-order column is that formula up to a factor, which the algebra decides. So it holds for chains whose line of
 //! sight runs as theirs does: azimuth (or hour angle) from y through x, elevation (or declination) from the xy plane
-//! towards z. Signs are not part of a name: they follow each field's own conventions.
+//! towards z. Signs are not part of a name: they follow each field's own conventions. Those of TPOINT are its own.
 
 mod mount;
+mod pointing;
 mod scanner;
 mod tpoint;
 
@@ -13,7 +14,9 @@ use model_core::algebra::{BasisFunction, Poly};
 use model_core::{SymbolId, SymbolKind, TransformKind, syntax};
 
 use crate::candidate::{Effect, Setting, seen};
-use mount::{Kind, Mount};
+pub use mount::Kind;
+use mount::Mount;
+pub use pointing::{PointingTerm, PointingTerms};
 
 /// A formula that was published under a name.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -33,6 +36,19 @@ pub struct Published {
     pub along: String,
     /// In range; empty where no range is measured.
     pub radial: String,
+    /// What becomes of it on the other side of the pier.
+    sides: Sides,
+}
+
+/// What becomes of a formula where an instrument points through the pole, or in its second face.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Sides {
+    /// It is the same.
+    Same,
+    /// It changes its sign.
+    Reversed,
+    /// The language cannot say it.
+    Unsaid,
 }
 
 /// A name of an effect.

@@ -6,8 +6,8 @@
 //! (2015) 139 (x2 to x12, with zenith angle V = π/2 − E; the beam's own offset and tilt, x1 and x5, depend on the optical
 //! train and are left out). Angles are times the range, and times cos E for horizontal ones: lengths at the target.
 
-use super::Published;
 use super::mount::Kind;
+use super::{Published, Sides};
 
 fn parameter(
     field: &'static str,
@@ -23,6 +23,7 @@ fn parameter(
         across: across.to_owned(),
         along: along.to_owned(),
         radial: radial.to_owned(),
+        sides: Sides::Same,
     }
 }
 

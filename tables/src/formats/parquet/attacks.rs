@@ -116,7 +116,7 @@ fn names_that_command_a_terminal_come_through_and_are_shown() {
 /// A table of very many columns goes through.
 #[test]
 fn many_columns_go_through() {
-    const COLUMNS: usize = 20_000;
+    const COLUMNS: usize = 100_000;
     let names = (0..COLUMNS).map(|column| format!("c{column}")).collect();
     let mut writer = Writer::new(names);
     let columns = (0..COLUMNS).map(|column| Column::Numbers(vec![column as f64, 0.5])).collect();

@@ -1,6 +1,8 @@
 //! A Parquet file whose pages are judged before they are unpacked and decoded: both make room for as much as a page claims, and a
 //! kilobyte can claim gigabytes.
 
+use std::sync::Arc;
+
 use ::parquet::basic::{Compression, Encoding, Type as Physical};
 use ::parquet::bloom_filter::Sbbf;
 use ::parquet::column::page::{Page, PageMetadata, PageReader};
@@ -8,6 +10,7 @@ use ::parquet::data_type::ByteArray;
 use ::parquet::errors::{ParquetError, Result};
 use ::parquet::file::metadata::{ColumnChunkMetaData, ParquetMetaData, RowGroupMetaData};
 use ::parquet::file::reader::{ChunkReader as _, FileReader, RowGroupReader, SerializedFileReader};
+use ::parquet::file::serialized_reader::SerializedPageReader;
 use ::parquet::record::reader::RowIter;
 use ::parquet::schema::types::Type;
 
@@ -63,7 +66,8 @@ impl FileReader for BoundedFile {
     }
 
     fn get_row_group(&self, i: usize) -> Result<Box<dyn RowGroupReader + '_>> {
-        Ok(Box::new(BoundedGroup { inner: self.inner.get_row_group(i)?, file: self }))
+        // Not the reader's own group: each makes room for every column of the file, and each column asks for one.
+        Ok(Box::new(BoundedGroup { metadata: self.metadata().row_group(i), file: self }))
     }
 
     fn get_row_iter(&self, projection: Option<Type>) -> Result<RowIter<'_>> {
@@ -72,35 +76,36 @@ impl FileReader for BoundedFile {
 }
 
 struct BoundedGroup<'a> {
-    inner: Box<dyn RowGroupReader + 'a>,
+    metadata: &'a RowGroupMetaData,
     file: &'a BoundedFile,
 }
 
 impl RowGroupReader for BoundedGroup<'_> {
     fn metadata(&self) -> &RowGroupMetaData {
-        self.inner.metadata()
+        self.metadata
     }
 
     fn num_columns(&self) -> usize {
-        self.inner.num_columns()
+        self.metadata.num_columns()
     }
 
     fn get_column_page_reader(&self, i: usize) -> Result<Box<dyn PageReader>> {
-        let column = self.metadata().column(i);
+        let column = self.metadata.column(i);
         let name = column.column_path().string();
-        let (rows, values) = (self.metadata().num_rows(), column.num_values());
-        let Some(values_left) = u64::try_from(values).ok().filter(|_| values == rows) else {
+        let (rows, values) = (self.metadata.num_rows(), column.num_values());
+        let Some(values_left) = usize::try_from(values).ok().filter(|_| values == rows) else {
             let what = format!("it has {values} cells in a group of {rows} rows");
             return Err(spoiled(&name, &what));
         };
         let unpacks = if matches!(column.compression(), Compression::ZSTD(_)) { ZSTD_BYTES } else { 0 };
         let (at, left) = column.byte_range();
+        let file = Arc::new(self.file.ranges.clone());
         Ok(Box::new(BoundedPages {
-            inner: self.inner.get_column_page_reader(i)?,
+            inner: Box::new(SerializedPageReader::new(file, column, values_left, None)?),
             has_levels: column.column_descr().max_def_level() > 0,
             width: width(column),
             of_text: if is_text(column.column_type()) { size_of::<ByteArray>() as u64 } else { 0 },
-            values_left,
+            values_left: values_left as u64,
             ranges: self.file.ranges.clone(),
             at,
             left,
@@ -110,8 +115,8 @@ impl RowGroupReader for BoundedGroup<'_> {
         }))
     }
 
-    fn get_column_bloom_filter(&self, i: usize) -> Option<&Sbbf> {
-        self.inner.get_column_bloom_filter(i)
+    fn get_column_bloom_filter(&self, _: usize) -> Option<&Sbbf> {
+        None
     }
 
     fn get_row_iter(&self, projection: Option<Type>) -> Result<RowIter<'_>> {

@@ -4,17 +4,17 @@ use super::support::trueaxis;
 
 /// Studies of every kind of observation, with effects and without.
 const STUDIES: &[&str] = &[
-    "auxtel/auxtel-2020-03",
     "course/study",
     "encoder/encoder-a",
     "encoder/encoder-b",
-    "equatorial/equatorial-a",
-    "equatorial/equatorial-b",
     "eye-in-hand/marks",
     "mobile-lidar/study",
     "mobile-scanner/walls",
+    "objects/bars",
+    "objects/rings",
+    "objects/sights",
     "objects/targets",
-    "probed-arm/arm",
+    "objects/wires",
     "turntable/turntable",
 ];
 

@@ -1,6 +1,6 @@
 //! A calibration set in type: in words, as text, as a page for a browser, as tables and for programs.
 //!
-//! Every number comes from `calibration`'s diagnosis, and every sentence stands in [`words`]. What is made here are strings; where they go
+//! Every number comes from `calibration`'s diagnosis, and every sentence comes from [`words`]. What is made here are strings; where they go
 //! to is for whoever asked.
 
 mod csv;
@@ -71,7 +71,7 @@ pub struct FileRead {
     pub sha256: Option<String>,
 }
 
-/// `1 row`, `2 rows`.
-fn counted(rows: usize) -> String {
-    format!("{rows} row{}", if rows == 1 { "" } else { "s" })
+/// `1 outlier`, `2 outliers`.
+fn outliers(rows: usize) -> String {
+    format!("{rows} outlier{}", if rows == 1 { "" } else { "s" })
 }

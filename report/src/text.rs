@@ -11,20 +11,20 @@ use similar::TextDiff;
 
 use crate::style::{BAD, CAREFUL, GOOD, HEADING};
 use crate::wrap::paragraph;
-use crate::{Reported, counted};
+use crate::{Reported, outliers};
 
 /// Lines of a list that the terminal shows.
 const LINES: usize = 5;
 
-/// Rows that the terminal names of those that the estimates lean on.
-const LEANED_ON: usize = 12;
+/// Most influential rows that the terminal names.
+const INFLUENTIAL: usize = 12;
 
-/// How much to tell, and how wide.
+/// How much to print, and how wide.
 #[derive(Debug, Clone, Copy)]
 pub struct Layout {
     /// Letters a line at most.
     pub width: usize,
-    /// Whether to tell everything.
+    /// Whether to print everything.
     pub verbose: bool,
 }
 
@@ -40,7 +40,7 @@ pub fn as_text(reported: &Reported<'_>, layout: Layout) -> Screen {
     if layout.verbose {
         page.effects(diagnosis);
         page.list("noise", &words::noise(diagnosis));
-        page.list("what is left", &words::remaining(diagnosis));
+        page.list("what remains", &words::remaining(diagnosis));
         page.poses(diagnosis);
         page.leverage(diagnosis);
         page.set_aside(diagnosis, usize::MAX);
@@ -53,7 +53,7 @@ pub fn as_text(reported: &Reported<'_>, layout: Layout) -> Screen {
         paragraph(
             &mut page.text,
             "",
-            "`--verbose` tells the evidence, the noise, poses to measure and what these data could not have shown.",
+            "For the evidence, the noise, poses to measure and effects that could not show, add `--verbose`.",
             layout.width,
         );
     }
@@ -63,7 +63,7 @@ pub fn as_text(reported: &Reported<'_>, layout: Layout) -> Screen {
 /// Hypotheses that one answer explains.
 const EXPLAINED: usize = 12;
 
-/// Why suspected causes whose names hold the words of `name` are, or are not, told; `None` where no explanation of the contest is called so.
+/// Why suspected causes whose names contain the words of `name` are, or are not, reported; `None` where no explanation of the contest is called so.
 #[must_use]
 pub fn why(diagnosis: &Diagnosis, name: &str, layout: Layout) -> Option<Screen> {
     let mut page = Page { text: Screen::default(), layout };
@@ -152,7 +152,7 @@ impl Page {
                 [] => {}
                 [one] => self.say("  ", &format!("Likely cause: {one}.")),
                 causes => {
-                    self.say("  ", "Causes that fit, each to be checked:");
+                    self.say("  ", "Possible causes, each to be checked:");
                     let most = if self.layout.verbose { usize::MAX } else { 2 * LINES };
                     causes.iter().take(most).for_each(|cause| self.say("  - ", cause));
                     if causes.len() > most {
@@ -163,7 +163,7 @@ impl Page {
         }
         if !answers.places.is_empty() {
             self.heading("Where");
-            answers.places.iter().for_each(|place| self.say("  ", place));
+            answers.places.iter().for_each(|place| self.say("  ", &format!("{}.", sentence_case(place))));
         }
         self.heading("How much better");
         self.say("  ", &answers.better);
@@ -177,8 +177,8 @@ impl Page {
     }
 
     fn residuals(&mut self, diagnosis: &Diagnosis) {
-        let all = "Residual, RMS of its length".to_owned();
-        let of = |observed: &str| format!("Residual of {observed}, RMS of its length");
+        let all = "Residual (RMS)".to_owned();
+        let of = |observed: &str| format!("Residual of {observed} (RMS)");
         let first = diagnosis.instrument.observed.first().filter(|_| !diagnosis.beside.is_empty());
         let title = first.map_or(all, |first| of(&first.name));
         self.residuals_of(diagnosis, &title, diagnosis.unit, [diagnosis.before, diagnosis.after]);
@@ -197,19 +197,19 @@ impl Page {
             let _ = writeln!(self.text, "  {name:36} {:>12} {:>12}", told(before), told(after));
         };
         let aside = diagnosis.observations.set_aside.len();
-        row("on the data that were fitted", before.rms, after.rms);
+        row("fitted data", before.rms, after.rms);
         if aside > 0 {
-            let name = format!("  without the {} set aside", counted(aside));
+            let name = format!("  excluding {}", outliers(aside));
             row(&name, before.rms_kept, after.rms_kept);
         }
-        row("on data that nobody fitted", before.held_out_rms, after.held_out_rms);
+        row("held-out data", before.held_out_rms, after.held_out_rms);
         let out = after.held_out_rows - after.held_out_rows_kept;
         if out > 0 {
-            let name = format!("  without {} out of reach", counted(out));
+            let name = format!("  excluding {}", outliers(out));
             row(&name, before.held_out_rms_kept, after.held_out_rms_kept);
         }
         if after.elsewhere_rms.is_some() {
-            row("elsewhere: regions left out", before.elsewhere_rms, after.elsewhere_rms);
+            row("unmeasured regions", before.elsewhere_rms, after.elsewhere_rms);
         }
     }
 
@@ -225,7 +225,7 @@ impl Page {
             let found = if line.found { "  (found)" } else { "" };
             let _ = writeln!(self.text, "  {:width$}  {}{found}", line.what, line.estimate);
         }
-        estimates.notes.iter().for_each(|note| self.say("  ", &sentence_case(note)));
+        estimates.notes.iter().for_each(|note| self.say("  ", &format!("{}.", sentence_case(note))));
     }
 
     fn effects(&mut self, diagnosis: &Diagnosis) {
@@ -250,14 +250,14 @@ impl Page {
         if rows.is_empty() {
             return;
         }
-        self.heading("rows that the estimates lean on");
-        let told = rows.iter().take(LEANED_ON).map(|(row, leverage)| format!("row {row} ({leverage:.2})"));
-        let more = rows.len().saturating_sub(LEANED_ON);
+        self.heading("most influential rows (leverage)");
+        let told = rows.iter().take(INFLUENTIAL).map(|(row, leverage)| format!("row {row} ({leverage:.2})"));
+        let more = rows.len().saturating_sub(INFLUENTIAL);
         let more = if more > 0 { format!(", and {more} more in report.json") } else { String::new() };
         self.say(
             "  ",
             &format!(
-                "by leverage, of as many as a row has components: {}{more}",
+                "the leverage of a row is at most its number of components: {}{more}",
                 told.collect::<Vec<_>>().join(", ")
             ),
         );
@@ -286,12 +286,12 @@ impl Page {
         if used.set_aside.is_empty() {
             return;
         }
-        self.heading(&format!("{} of {} observations set aside", used.set_aside.len(), used.rows));
+        self.heading(&format!("{} of {} rows excluded as outliers", used.set_aside.len(), used.rows));
         for aside in used.set_aside.iter().take(most) {
             self.say("  ", &format!("{}: {}", words::row(aside), aside.why));
         }
         if used.set_aside.len() > most {
-            self.say("  ", &format!("and {} more; report.json lists all", used.set_aside.len() - most));
+            self.say("  ", &format!("and {} more, all listed in report.json", used.set_aside.len() - most));
         }
     }
 
@@ -302,7 +302,7 @@ impl Page {
             return;
         }
         hidden.sort_by_key(|effect| effect.smallest.is_none());
-        self.heading("what these data could not have shown");
+        self.heading("effects that these data could not show");
         for effect in &hidden {
             self.say("  ", &format!("{} {}: {}", effect.name, words::size(effect), words::fate(effect)));
         }

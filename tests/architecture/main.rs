@@ -7,3 +7,4 @@ mod house_rules;
 mod registries;
 mod rooms;
 mod sources;
+mod words;

@@ -129,10 +129,10 @@ fn causes_that_fit_alike_are_not_said_to_correct_alike() {
     assert_eq!(run.code, 0, "{run}");
     let text = run.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(
-        text.contains("place and size of everything may differ: nobody knows those of the objects"),
+        text.contains("place and size of everything may differ, because the objects were not surveyed"),
         "{run}"
     );
-    assert!(!text.contains("same correction") && !text.contains("The correction is the same"), "{run}");
+    assert!(!text.contains("same correction") && !text.contains("The correction is"), "{run}");
 }
 
 /// The tip can be where it is asked to be, and measuring there is worth what was promised; whether the radius is known or not.

@@ -121,11 +121,11 @@ fn where_hardly_a_number_is_left_over_nobody_is_told_to_correct() {
         for (kind, count, numbers) in [("point", 3, 9), ("direction", 4, 8)] {
             let (shown, report) = calibrated("hardly", kind, count, seed);
             assert!(!shown.contains(CORRECT) && shown.contains(MORE), "{shown}");
-            let why =
-                format!("{numbers} numbers for 6 unknowns leave too few to judge the noise by: add at least");
-            assert!(shown.split_whitespace().collect::<Vec<_>>().join(" ").contains(&why), "{shown}");
+            let why = format!("{numbers} measured numbers for 6 unknowns are too few");
+            let words = shown.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(words.contains(&why) && words.contains("Add at least"), "{shown}");
             assert!(kinds(&report).contains(&HARDLY.to_owned()), "{shown}");
-            assert!(!shown.contains("NOTHING MISSING FOUND") && shown.contains("NOT CONFIRMED"), "{shown}");
+            assert!(!shown.contains("NOTHING MISSING FOUND") && shown.contains("NOT ENOUGH DATA"), "{shown}");
         }
     }
 }
@@ -159,7 +159,7 @@ fn enough_rows_are_corrected_with() {
 fn asked_for(shown: &str) -> Option<usize> {
     let words: Vec<&str> = shown.split_whitespace().collect();
     let at = words.windows(2).position(|two| two == ["At", "least"])?;
-    shown.starts_with("TOO FEW OBSERVATIONS").then(|| words[at + 2].parse().expect("a number"))
+    shown.starts_with("NOT ENOUGH DATA").then(|| words[at + 2].parse().expect("a number"))
 }
 
 /// Who measures as many more as are asked for is not asked again.
@@ -207,7 +207,7 @@ fn as_many_as_are_asked_for_beside_unknown_objects_are_enough() {
         asked += 1;
         let words = shown.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(words.contains("21 numbers of objects and stations"), "{shown}");
-        assert!(words.contains("of objects and from stations that are there"), "{shown}");
+        assert!(words.contains("of the same objects and from the same stations"), "{shown}");
     }
     assert_eq!(asked, 1, "{more}");
 }

@@ -76,7 +76,7 @@ fn a_station_that_is_off_level_is_named() {
         .write("rows.csv", rows(&room, random, 90.0 * ARCSEC))
         .write("study.toml", format!("{STUDY}{LEVELLED}"));
     let run = run_in(&folder.0, &["calibrate", "study.toml"], "");
-    assert!(run.stdout.contains("off level"), "{run}");
+    assert!(run.stdout.contains("out of level"), "{run}");
 }
 
 #[test]

@@ -50,6 +50,6 @@ fn what_is_left_of_data_without_noise_is_called_rounding() {
         let told = |caution: &serde_json::Value| caution["kind"] == "residual is rounding";
         assert!(json["cautions"].as_array().is_some_and(|all| all.iter().any(told)), "{}", json["cautions"]);
         let run = folder.trueaxis(&["calibrate", "study.toml"]);
-        assert!(run.stdout.contains("what is left is rounding"), "{run}");
+        assert!(run.stdout.contains("Only rounding remains"), "{run}");
     }
 }

@@ -131,7 +131,7 @@ fn the_first_screen_says_where_to_stand_next() {
     let effect = &report["effects"][0];
     let (causes, others) = (effect["causes"].as_array(), effect["competing_with"].as_array());
     assert_eq!((causes.map(Vec::len), others.map(Vec::len)), (Some(1), Some(0)), "{effect:#}");
-    assert!(told.contains("Cause found; it alone explains"), "{told}");
+    assert!(told.contains("EFFECT FOUND With this effect, the residual looks like noise."), "{told}");
 
     let next = &report["next_places"][0];
     let places = next["places"].as_array().expect("a list");

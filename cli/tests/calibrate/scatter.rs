@@ -38,7 +38,7 @@ fn a_target_that_moved_is_named_and_the_rest_is_as_without_it() {
     assert_eq!(scatter.len(), 1, "{scatter:?}");
     assert!(scatter[0]["label"] == "T5" && scatter[0]["what"] == "point", "{scatter:?}");
     assert!(scatter[0]["times"].as_f64().is_some_and(|times| times > 3.0), "{scatter:?}");
-    assert!(told.contains("The rows of `T5` scatter") && told.contains("did it move"), "{told}");
+    assert!(told.contains("The rows of `T5` scatter") && told.contains("Check whether it moved"), "{told}");
     assert!(report["effects"][0]["names"].to_string().contains("encoder eccentricity of azimuth"));
 }
 

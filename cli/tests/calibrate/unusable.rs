@@ -13,7 +13,7 @@ fn too_few_observations_end_with_one_and_amend_nothing() {
     folder.write("measured.csv", "reading,true\n30,30.01\n");
     let run = folder.trueaxis(&["calibrate", "study.toml", "--out", "result"]);
     assert_eq!(run.code, 1, "{run}");
-    assert!(run.stdout.starts_with("TOO FEW OBSERVATIONS\n"), "{run}");
+    assert!(run.stdout.starts_with("NOT ENOUGH DATA\n"), "{run}");
     assert!(!run.stdout.contains('±'), "no uncertainty is made up: {run}");
     let names = std::fs::read_dir(folder.0.join("result")).expect("the folder is there");
     let mut names: Vec<String> =
@@ -25,7 +25,7 @@ fn too_few_observations_end_with_one_and_amend_nothing() {
     for absent in ["search", "remaining"] {
         assert_eq!(report[absent], Value::Null, "no search was made");
     }
-    assert!(folder.read("result/report.html").contains("Too few observations"));
+    assert!(folder.read("result/report.html").contains("Not enough data"));
 }
 
 /// What an earlier run left there is pointed out.

@@ -1,5 +1,6 @@
 //! What surrounds the answers: completions, manual pages, colours, silence, the width of lines.
 
+mod plain;
 #[path = "../support/mod.rs"]
 mod support;
 

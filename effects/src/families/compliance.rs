@@ -11,9 +11,9 @@ pub(super) const FAMILY: Family = Family {
            follows from the chain: where the body stands, seen from the joint, across the plumb line.",
     causes: "Gears, belts, shafts and torque sensors of an arm are elastic: what the motor's encoder reads is not where the \
              link is.",
-    looks: "Sag that is largest with the arm stretched out level, and changes sign where it reaches over to the other side; \
-            one number for all poses, unlike a sine of the joint.",
-    check: "Hang a known mass on the hand: the effect of the last body grows in proportion.",
+    looks: "Sag that is largest with the arm stretched out level, and changes sign on the other side. One number for all poses, unlike \
+            a sine of the joint.",
+    check: "Attach a known mass to the hand. The effect of the last body grows in proportion.",
     effects,
 };
 

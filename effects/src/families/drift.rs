@@ -9,7 +9,7 @@ pub(super) const FAMILY: Family = Family {
     what: "A degree of freedom of a body moves in proportion to time.",
     causes: "A foundation or tripod that sinks or twists, creep of a joint or a glue line, electronics that settle.",
     looks: "A slope in the residuals in order of acquisition, in one degree of freedom of one body.",
-    check: "Measure the first pose again at the end; watch a level on the base.",
+    check: "Measure the first pose again at the end. Watch a level on the base.",
     effects,
 };
 

@@ -7,13 +7,11 @@ use crate::candidate::{Dependence, Effect, Family, Function, JointAxis, Setting,
 pub(crate) const FAMILY: Family = Family {
     name: "encoder",
     what: "The joint is not quite where its encoder says, by a function of the reading.",
-    causes: "The graduated disc sits off centre (once a turn) or is oval or tilted (twice); four readout \
-             cells differ (four times); teeth of a gear or poles of a motor (many times); a wrong number of counts a \
-             turn (scale).",
-    looks: "A sine of the reading, once a turn or several times, or a straight line (scale), about the joint's own axis and \
-            no other, the same whatever the other joints and the plumb line do.",
-    check: "Read a second head on the other side of the disc: what comes once a turn, or any odd number of times, changes \
-            sign there; what comes an even number of times does not.",
+    causes: "The graduated disc sits off centre (once per turn), or is oval or tilted (twice). Four readout cells differ (four times). \
+             Teeth of a gear or poles of a motor (many times). A wrong number of counts per turn (scale).",
+    looks: "A sine of the reading, once or several times per turn, or a straight line (scale). Only about the joint's own axis, and \
+            independent of the other joints and of gravity.",
+    check: "Add a second reading head opposite the first. If the disc is off centre, the two heads err in opposite directions.",
     effects,
 };
 

@@ -11,8 +11,7 @@ pub(crate) const FAMILY: Family = Family {
     causes: "The tube, the arm or the fork bends under its own weight, or under what it carries.",
     looks: "One period a turn of the joints that tilt the body, fixed in phase to the plumb line, the same \
             whichever way the joint came.",
-    check: "Add a known mass at the tip or shift the counterweight: sag grows in proportion. An encoder's \
-            eccentricity does not.",
+    check: "Add a known mass at the tip or shift the counterweight. Sag grows in proportion, the eccentricity of an encoder does not.",
     effects,
 };
 

@@ -7,7 +7,7 @@ pub(super) const FAMILY: Family = Family {
     what: "A function that repeats many times a turn of a joint, beyond the harmonics that the study asks for.",
     causes: "Teeth of a gear, rollers of a bearing, poles of a motor, divisions of a disc.",
     looks: "A fine wave over its joint, of the same height all around.",
-    check: "Count teeth, rollers and poles; measure at steps of a tenth of its period.",
+    check: "Count teeth, rollers and poles. Measure at steps of a tenth of the period.",
     effects,
 };
 

@@ -10,7 +10,7 @@ pub(super) const FAMILY: Family = Family {
            joint that counts from the horizon, the cotangent of the joint.",
     causes: "Refraction left over after a model of the air: wrong pressure, temperature or wavelength.",
     looks: "Tangent or cotangent of a joint, growing without bound towards the horizon or a pole.",
-    check: "Compare pressure and temperature given to the refraction model; measure on a day with other weather.",
+    check: "Compare pressure and temperature given to the refraction model. Measure on a day with other weather.",
     effects,
 };
 

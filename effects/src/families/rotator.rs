@@ -12,7 +12,7 @@ pub(super) const FAMILY: Family = Family {
     causes: "The rotator's axis is not the optical axis, or the camera's centre is not on the rotator's axis.",
     looks: "A circle in the frame of the observing body, one turn for one turn of the rotator (two for an image rotator of \
             mirrors).",
-    check: "Hold the mount still and turn the rotator: a star draws the circle.",
+    check: "Stop the mount and turn the rotator. A star draws the circle.",
     effects,
 };
 

@@ -10,7 +10,7 @@ pub(super) const FAMILY: Family = Family {
     causes: "Expansion and bending of a structure that is warmer on one side, a bracket of another material, electronics \
              that warm up.",
     looks: "Residuals that line up when plotted against the temperature, in one degree of freedom of one body.",
-    check: "Heat one side, or measure on a cold morning and a warm evening; put a second sensor where the effect sits.",
+    check: "Heat one side, or measure on a cold morning and a warm evening. Put a second sensor where the effect sits.",
     effects,
 };
 

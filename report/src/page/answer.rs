@@ -26,24 +26,23 @@ pub fn first_screen(reported: &Reported<'_>, answers: &Answers) -> Markup {
         section id="answer" {
             ul.badges {
                 li class=(tone) { span aria-hidden="true" { (sign) " " } (answers.badge) }
-                @if several > 0 {
+                @if several > 0 && diagnosis.effects.len() > 1 {
                     li.tone.ambiguous {
                         span aria-hidden="true" { "◐ " }
-                        @if diagnosis.effects.len() == 1 { (diagnosis.effects[0].causes.len()) " physical causes fit" }
-                        @else { "several causes fit " (several) " of them" }
+                        (several) " with several possible causes"
                     }
                 }
                 @if let Some(chance) = &answers.chance { li { (chance) } }
             }
-            h1 { (answers.what.first().unwrap_or(&answers.happened)) }
+            h1 { (answers.what.first().map_or_else(|| coded(&answers.happened), |what| html! { (what) })) }
             p.lead {
-                @if answers.what.is_empty() { (answers.better) } @else { (answers.happened) }
+                (coded(if answers.what.is_empty() { &answers.better } else { &answers.happened }))
             }
             @if answers.what.len() > 1 {
                 ul { @for what in &answers.what[1..] { li { (what) } } }
             }
             @if !answers.causes.is_empty() {
-                ul.chips aria-label="Causes that fit" {
+                ul.chips aria-label="Possible causes" {
                     @for cause in answers.causes.iter().take(10) { li { (words::sentence_case(cause)) } }
                     @if answers.causes.len() > 10 { li { a href="#causes" { "and " (answers.causes.len() - 10) " more" } } }
                 }
@@ -58,8 +57,8 @@ pub fn first_screen(reported: &Reported<'_>, answers: &Answers) -> Markup {
                 @if diagnosis.effects.is_empty() && diagnosis.verdict.is_usable() {
                     (declared(diagnosis))
                 } @else {
-                    section.card aria-label="Where it sits" {
-                        h2 { "Where it sits" }
+                    section.card aria-label="Where" {
+                        h2 { "Where" }
                         (chain::chain(diagnosis))
                     }
                 }
@@ -74,7 +73,7 @@ pub fn first_screen(reported: &Reported<'_>, answers: &Answers) -> Markup {
                             li {
                                 b { (step.title) } br; (coded(&step.text))
                                 @match &step.command {
-                                    // Lines for the study stand where what is left is told.
+                                    // Lines for the study are printed beside what remains.
                                     Some(lines) if lines.contains('\n') => { " " a href="#left" { "The lines to write" } }
                                     Some(command) => pre.copy tabindex="0" { @for word in command.split_inclusive(' ') { span { (word) } } },
                                     None => {}
@@ -133,7 +132,7 @@ fn better(diagnosis: &Diagnosis, answers: &Answers) -> Markup {
     let main = diagnosis.instrument.observed.first().map_or("", |first| &first.name);
     html! {
         (first.figure(diagnosis))
-        p { (answers.better) }
+        p { (coded(&answers.better)) }
         @if !diagnosis.beside.is_empty() { h3 { (main) } }
         (first.bars(diagnosis))
         @for (observed, compared) in beside {
@@ -161,9 +160,9 @@ impl Compared {
     fn pairs(&self) -> Vec<(&'static str, f64, f64)> {
         let (before, after) = (self.before, self.after);
         [
-            ("On data that nobody fitted", before.held_out_rms, after.held_out_rms),
-            ("On the data that were fitted", before.rms, after.rms),
-            ("Elsewhere: in regions of the joints left out", before.elsewhere_rms, after.elsewhere_rms),
+            ("Held-out data", before.held_out_rms, after.held_out_rms),
+            ("Fitted data", before.rms, after.rms),
+            ("Unmeasured regions of the joints", before.elsewhere_rms, after.elsewhere_rms),
         ]
         .into_iter()
         .filter_map(|(name, before, after)| Some((name, before?, after?)))
@@ -190,12 +189,11 @@ impl Compared {
             }
             p.quiet {
                 @if changed { "Hatched: before. Filled: after. " }
-                "Dotted line: the noise, " (self.told(noise)) " (measured). RMS of the residual's length over every row"
+                "Dotted line: the measured noise, " (self.told(noise)) ". All figures are RMS over every row."
                 @if let (Some(before), Some(after), false) = (self.before.rms_kept, self.after.rms_kept, diagnosis.observations.set_aside.is_empty()) {
-                    "; without the " (crate::counted(diagnosis.observations.set_aside.len())) " set aside "
-                    (self.told(before)) " → " (self.told(after)) " on the data that were fitted"
+                    " Excluding " (crate::outliers(diagnosis.observations.set_aside.len())) ", the fitted data have "
+                    (self.told(before)) " → " (self.told(after)) "."
                 }
-                "."
             }
         }
     }

@@ -19,7 +19,7 @@ pub fn chain(diagnosis: &Diagnosis) -> Markup {
                 p { b { "ground" } }
             }
         }
-        p.quiet { "Declared errors: ● measured alone, ◐ in a sum only, ○ not shown by these data, ▪ held." }
+        p.quiet { "Declared errors: ● measured alone, ◐ in a sum only, ○ not shown by these data, ▪ fixed." }
     }
 }
 
@@ -45,7 +45,7 @@ fn row(body: &BodyShown, diagnosis: &Diagnosis) -> Markup {
                 @if !body.documentation.is_empty() { p.quiet { (body.documentation.lines().next().unwrap_or_default()) } }
                 @for effect in here.iter().take(NAMED) { p.tag { "◆ Here: " (tag(effect)) } }
                 @if here.len() > NAMED { p.tag { a href="#causes" { "and " (here.len() - NAMED) " more here" } } }
-                @if let Some(place) = left { p.tag { "◇ Left: " (motion(&place.dof)) " with " (place.driver) } }
+                @if let Some(place) = left { p.tag { "◇ Remains: " (motion(&place.dof)) " with " (place.driver) } }
                 @if !body.errors.is_empty() { (dots(body)) }
             }
         }

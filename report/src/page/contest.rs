@@ -20,7 +20,7 @@ pub fn contest(diagnosis: &Diagnosis) -> Markup {
             details id="contest" {
                 summary { "Why this and not that" }
                 p.quiet {
-                    (diagnosis.contest.len()) " explanations competed. The upper bar is what one gains beside the noise, the lower what it costs. "
+                    (diagnosis.contest.len()) " explanations competed. The upper bar shows the gain of each, the lower bar its price. "
                     (MEANING)
                 }
                 div.scroll tabindex="0" role="region" aria-label="Explanations that competed" {
@@ -45,7 +45,7 @@ pub fn contest(diagnosis: &Diagnosis) -> Markup {
                         }
                     }
                 }
-                p.quiet { "All stand in report.json under `contest`." }
+                p.quiet { "All are listed in report.json under " code { "contest" } "." }
             }
         }
     }

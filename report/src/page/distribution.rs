@@ -6,6 +6,8 @@ use maud::Markup;
 use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF as _, Normal};
 
+use crate::words::component_in_words;
+
 use super::card::{CARD, card};
 use super::rows::{Column, Component};
 use super::svg::{Axis, Mark, Picture};
@@ -59,13 +61,13 @@ pub fn histogram(component: &Component, changed: bool) -> Markup {
         (x, peak * (-0.5 * (x / spread).powi(2)).exp())
     });
     picture.line("after normal", normal);
-    let title = format!("How often: {}", component.name);
+    let title = format!("Histogram, {}", component_in_words(component.name));
     let note = if changed {
-        "Filled: after. Dashed: before. Curve: normal, with the spread of what is left."
+        "Filled: after. Dashed: before. Curve: normal distribution with the same spread as after."
     } else {
-        "Curve: normal, with the same spread."
+        "Curve: normal distribution with the same spread."
     };
-    card(&title, note, &picture.finish(&format!("Histogram of {}", component.name)))
+    card(&title, note, &picture.finish(&title))
 }
 
 /// The size that so many of a hundred values stay below.
@@ -98,8 +100,8 @@ pub fn quantiles(component: &Component, changed: bool) -> Markup {
         picture.marks("before", Mark::Triangle, before.iter().copied());
     }
     picture.marks("after", Mark::Dot, after.iter().copied());
-    let title = format!("Against the normal distribution: {}", component.name);
-    card(&title, "On the line: normal.", &picture.finish(&title))
+    let title = format!("Normal Q-Q plot, {}", component_in_words(component.name));
+    card(&title, "Normal noise follows the line.", &picture.finish(&title))
 }
 
 /// Sorted values with their normal quantiles; of many, those at even steps of the quantile.

@@ -50,8 +50,7 @@ pub fn maps(reported: &Reported<'_>, rows: &Rows) -> Markup {
         if lengths.is_empty() { 1.0 } else { *lengths.select_nth_unstable_by(most, f64::total_cmp).1 };
     let typical = typical.max(f64::MIN_POSITIVE);
     let scale = numbers::told_in(typical * rows.unit.in_si, &rows.unit);
-    let each =
-        if before.len() > ARROWS { "the mean of a cell, drawn from its dot" } else { "drawn from its dot" };
+    let each = if before.len() > ARROWS { "the mean residual of a cell" } else { "a residual" };
     let picture = |arrows: Vec<Arrow>, when: &str, class: &str| {
         let axis = |label: &str, pick: fn(&Arrow) -> f64| Axis::around(label, arrows.iter().map(pick), false);
         let mut picture =
@@ -63,7 +62,7 @@ pub fn maps(reported: &Reported<'_>, rows: &Rows) -> Markup {
         picture.arrows(class, arrows.iter().map(to_scale));
         picture.scale(LONG, &scale);
         let title = if when.is_empty() { title.to_owned() } else { format!("{title}, {when}") };
-        let note = format!("Each arrow is {each}, along the residual; the bar is {scale}.");
+        let note = format!("Each arrow is {each}, drawn from its dot. The bar is {scale}.");
         html! {
             section.card { h3 { (title) } p.quiet { (note) } (PreEscaped(picture.finish(&format!("{title}. {note}")))) }
         }

@@ -49,7 +49,7 @@ pub fn page(reported: &Reported<'_>) -> String {
                         a href="#answer" { "Answer" }
                         @if !diagnosis.effects.is_empty() { a href="#causes" { "Causes" } }
                         a href="#residuals" { "Residuals" }
-                        a href="#left" { "What is left" }
+                        a href="#left" { "What remains" }
                         a href="#values" { "Values" }
                         a href="#details" { "Details" }
                     }

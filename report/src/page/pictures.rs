@@ -1,6 +1,6 @@
 //! Which pictures the page has.
 
-use crate::words::{self, numbers};
+use crate::words::{self, component_in_words, motion, numbers, side};
 use calibration::diagnose::Harmonics;
 use maud::{Markup, PreEscaped, html};
 use rayon::prelude::*;
@@ -39,12 +39,12 @@ pub fn residuals(reported: &Reported<'_>, rows: &Rows) -> Markup {
         section id="residuals" {
             h2 { "Residuals" }
             p.quiet {
-                "Measured minus what the fitted declaration says. What is left should scatter evenly around zero. Crosses: \
-                 rows set aside. Diamonds: means of what is left, with two standard errors."
+                "Residual: measured minus predicted by the fitted model. Good residuals scatter evenly around zero. Crosses: outliers. \
+                 Diamonds: means after calibration, with two standard errors."
                 @if drawn < rows.of {
                     " " (drawn) " of " (rows.of) " rows are drawn"
-                    @if rows.of > reported.calibration.drawn.len() { ": those set aside, those with the largest residuals, and others by lot" }
-                    ". Figures, tables, histograms, quantiles, means and maps count all."
+                    @if rows.of > reported.calibration.drawn.len() { " (the outliers, those with the largest residuals, and others at random)" }
+                    ". Figures, tables, histograms, quantiles, means and maps use every row."
                 }
             }
             fieldset.toggle {
@@ -158,7 +158,7 @@ fn effect(reported: &Reported<'_>, rows: &Rows, at: usize) -> Markup {
         (trace_reading(trace), numbers::reading(shown.unit, axis_size(shown.unit, &shown.range)).in_si);
     let label = format!("{} of {}, {}", told.dof, told.body, drawn.name);
     let y = residual_axis(&label, rows, [&without.values, &left.values]);
-    // Of a function that repeats too often, every period lies on the first.
+    // Of a function that repeats too often, every period is drawn on the first.
     let first = trace.curve.first().map_or(0.0, |point| point[0] / in_si);
     let folded: Option<Vec<Option<f64>>> = trace.period.map(|period| {
         let within = |q: f64| first + (q - first).rem_euclid(period / in_si);
@@ -182,8 +182,9 @@ fn effect(reported: &Reported<'_>, rows: &Rows, at: usize) -> Markup {
     picture.band("band before", &band);
     picture.line("curve before", curve.iter().map(|[q, f, _]| (*q, *f)));
     let note = format!(
-        "Triangles: what each row says of {} of {}, without this effect. Dots: what is left with it.",
-        told.dof, told.body
+        "Triangles: {} of {} implied by each row, before the effect is added. Dots: after.",
+        motion(&told.dof),
+        told.body
     );
     let name = format!("{} against {}: {}", label, shown.name, words::headline(told));
     card(&words::sentence_case(&told.names[0]), &note, &picture.finish(&name))
@@ -202,7 +203,7 @@ fn against(rows: &Rows, x: &Component, y: &Component) -> Markup {
     }
     picture.marks("after", Mark::Dot, pairs(rows, &x.after.values, &y.after.values, false));
     picture.marks("after", Mark::Cross, pairs(rows, &x.after.values, &y.after.values, true));
-    let title = format!("{} against {}", words::sentence_case(y.name), x.name);
+    let title = format!("{} against {}", words::sentence_case(side(y.name)), component_in_words(x.name));
     let svg = picture.finish(&format!("{title}, before and after"));
     card(&title, "", &svg)
 }
@@ -223,8 +224,8 @@ fn over(reported: &Reported<'_>, rows: &Rows, reading: &Column, component: &Comp
     if let Some(every) = every {
         means(&mut picture, low, high, rows.kept(|row| every[row] / reading.in_si, component));
     }
-    let title = format!("{} over {}", words::sentence_case(component.name), reading.key);
-    let svg = picture.finish(&format!("{title}, before and after, with means of what is left"));
+    let title = format!("{} over {}", words::sentence_case(&component_in_words(component.name)), reading.key);
+    let svg = picture.finish(&format!("{title}, before and after, with means after"));
     card(&title, "", &svg)
 }
 
@@ -254,7 +255,7 @@ fn order(reported: &Reported<'_>, rows: &Rows, component: &Component) -> Markup 
     let numbers: Vec<Option<f64>> = rows.numbers.iter().map(|&number| Some(number as f64)).collect();
     html! {
         section.card.wide {
-            h3 { "In the order of the file: " (component.name) }
+            h3 { "In file order, " (component_in_words(component.name)) }
             @for (class, size) in [("broad", BROAD), ("narrow", CARD)] {
                 div class=(class) { (PreEscaped(in_order(reported, rows, component, &numbers, size))) }
             }
@@ -277,35 +278,35 @@ fn in_order(
     marks(&mut picture, rows, numbers, &before.values, &after.values);
     let number = |row: usize| reported.observations.row_number(row) as f64;
     means(&mut picture, low, high, rows.kept(number, component));
-    picture.finish(&format!("{} row by row, before and after", component.name))
+    picture.finish(&format!("{} row by row, before and after", component_in_words(component.name)))
 }
 
-/// What is left as what is left: in words, what was looked at, and the harmonics of each joint.
+/// What remains after the effects: in words, the statistics behind them, and the harmonics of each joint.
 pub fn left(reported: &Reported<'_>) -> Markup {
     let diagnosis = &reported.calibration.diagnosis;
     let joints: Vec<&Harmonics> = diagnosis.harmonics.iter().collect();
     html! {
         section id="left" {
-            h2 { "What is left" }
+            h2 { "What remains" }
             @for line in words::remaining(diagnosis) { p { (words::sentence_case(&line)) "." } }
             @if diagnosis.remaining.is_none() { p { "No search was made." } }
             @if let Some(offer) = diagnosis.remaining.as_ref().and_then(|left| left.offer.as_ref()) {
-                p { "To let the declaration have it, write into the study and calibrate again:" }
+                p { "To add this error to the model, write these lines into the study and calibrate again:" }
                 pre.copy tabindex="0" { (offer) }
             }
             @if !joints.is_empty() {
                 details open {
                     summary { "Harmonics of each joint" }
-                    p.quiet { "Amplitude of each order in the residual; the dotted line is what noise alone exceeds once in twenty." }
+                    p.quiet { "Amplitude of each order in the residual. Noise alone exceeds the dotted line once in twenty times." }
                     div.grid { @for harmonics in joints { (harmonic(harmonics, reported)) } }
                 }
             }
             @if let Some(left) = &diagnosis.remaining {
                 details {
-                    summary { "What was looked at" }
-                    div.scroll tabindex="0" role="region" aria-label="Statistics of what is left" {
+                    summary { "Tests of the residual" }
+                    div.scroll tabindex="0" role="region" aria-label="Tests of the residual" {
                         table {
-                            thead { tr { th scope="col" { "structure" } th scope="col" { "chance in noise, alone" } } }
+                            thead { tr { th scope="col" { "pattern" } th scope="col" { "p, of this test alone" } } }
                             tbody { @for looked in &left.looked { tr { td { (looked.at) } td { (numbers::chance(looked.p_value)) } } } }
                         }
                     }
@@ -339,6 +340,10 @@ fn harmonic(harmonics: &Harmonics, reported: &Reported<'_>) -> Markup {
         [(f64::from(order) - 0.5, v / reading.in_si), (f64::from(order) + 0.5, v / reading.in_si)]
     });
     picture.line("limit", limit);
-    let title = format!("{} over {}", words::sentence_case(harmonics.component), harmonics.joint);
+    let title = format!(
+        "{} over {}",
+        words::sentence_case(&component_in_words(harmonics.component)),
+        harmonics.joint
+    );
     card(&title, "", &picture.finish(&format!("Harmonics: {title}")))
 }

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::words::numbers::{self, Reading};
+use crate::words::side;
 use model_core::escape::json_in_script;
 use observe::SiUnit;
 
@@ -105,7 +106,7 @@ impl Rows {
             .map(|component| {
                 let of_unit = units.iter().find(|(known, _)| *known == component.unit);
                 let reading = of_unit.map_or_else(|| unit.clone(), |(_, reading)| reading.clone());
-                let label = numbers::name_with_unit(component.name, &reading.name);
+                let label = numbers::name_with_unit(side(component.name), &reading.name);
                 Component {
                     name: component.name,
                     before: column(format!("{} before", component.name), &label, &component.before, &reading),

@@ -122,7 +122,7 @@
       tip.hidden = row < 0;
       if (row < 0) return;
       const names = data.readings.map((name) => `${name} ${data.columns[name][row]}`).join(", ");
-      tip.textContent = `Row ${data.rows[row]}${data.aside[row] ? ", set aside" : ""}: ${names}; residual ${data.before[row]}${data.unit} before, ${data.after[row]}${data.unit} after`;
+      tip.textContent = `Row ${data.rows[row]}${data.aside[row] ? " (outlier)" : ""}: ${names}, residual ${data.before[row]}${data.unit} before, ${data.after[row]}${data.unit} after`;
       tip.style.left = Math.max(4, Math.min(event.clientX + 14, innerWidth - 270)) + "px";
       tip.style.top = Math.max(4, Math.min(event.clientY + 14, innerHeight - tip.offsetHeight - 8)) + "px";
     });

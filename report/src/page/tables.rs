@@ -29,7 +29,7 @@ pub fn causes(reported: &Reported<'_>) -> Markup {
     html! {
         @if !effects.is_empty() {
             section id="causes" {
-                h2 { "What it may be, and how to check" }
+                h2 { "Possible causes, and how to check them" }
                 @for effect in first { (effect_card(effect, diagnosis)) }
                 @if !more.is_empty() {
                     details {
@@ -60,7 +60,7 @@ fn effect_card(effect: &EffectFound, diagnosis: &Diagnosis) -> Markup {
         section.card style="margin-top:14px" {
             h3 { (headline) }
             p.quiet { (words::sentence_case(&words::place(effect, diagnosis))) "." }
-            (scrolled(&format!("Causes that fit: {headline}"), &html! {
+            (scrolled(&format!("Possible causes: {headline}"), &html! {
                 table.stack role="table" {
                     thead role="rowgroup" {
                         tr role="row" {
@@ -76,7 +76,7 @@ fn effect_card(effect: &EffectFound, diagnosis: &Diagnosis) -> Markup {
                                     @for cause in &group {
                                         div {
                                             (words::sentence_case(&words::cause(cause)))
-                                            @if cause.relation == Relation::Competing { span.quiet { " (fits about as well)" } }
+                                            @if cause.relation == Relation::Competing { span.quiet { " (fits nearly equally)" } }
                                             @if !cause.published.is_empty() { br; span.quiet { (cause.published.join(", ")) } }
                                         }
                                     }
@@ -125,7 +125,7 @@ pub fn values(diagnosis: &Diagnosis) -> Markup {
                 }))
                 @for note in &estimates.notes { p { (words::sentence_case(note)) "." } }
             } @else {
-                p.caution role="note" { "The fit is not usable: no value of it means anything, and none is told." }
+                p.caution role="note" { "The fit cannot be used, so no values are shown. Follow the steps above first." }
             }
         }
     }
@@ -149,9 +149,9 @@ pub fn details(reported: &Reported<'_>) -> Markup {
                 details {
                     summary { "How the search was made" }
                     p {
-                        (search.candidates) " candidates in " (search.sets) " confounded sets that these data could tell apart; "
-                        (search.flips) " sign flips; " (search.folds) " folds; seed " (search.seed)
-                        "; at most " (search.false_alarm) " chance of a false alarm."
+                        "The search compared " (search.candidates) " candidates in " (search.sets) " sets that these data can separate. It used "
+                        (search.flips) " sign flips, " (search.folds) " folds and seed " (search.seed) ". The chance of a false alarm is at most "
+                        (search.false_alarm) "."
                     }
                 }
             }
@@ -209,7 +209,7 @@ fn correlations(diagnosis: &Diagnosis) -> Markup {
                 @if names.len() <= MATRIX {
                     (scrolled("Correlation matrix, in percent", &html! {
                         table.matrix {
-                            caption.quiet { "In percent; marked from 90 on." }
+                            caption.quiet { "In percent. Bold from 90 on." }
                             thead { tr { td {} @for name in &names { th scope="col" { (name) } } } }
                             tbody {
                                 @for (name, row) in names.iter().zip(&precision.correlation_matrix) {
@@ -240,18 +240,18 @@ fn leverage(diagnosis: &Diagnosis) -> Markup {
     html! {
         @if !rows.is_empty() {
             details {
-                summary { "Rows that the estimates lean on" }
+                summary { "Most influential rows (leverage)" }
                 p.quiet {
-                    "Leverage goes from 0 to the number of components of a row; there, the estimates follow the row wherever it goes, and a \
-                     mistake in it does not show in its residual."
+                    "The leverage of a row is at most its number of components. At that limit the estimates follow the row, and its residual \
+                     hides a mistake. Check these rows first."
                 }
-                (scrolled("Rows that the estimates lean on", &html! {
+                (scrolled("Most influential rows", &html! {
                     table {
                         thead { tr { th.number scope="col" { "row" } th.number scope="col" { "leverage" } } }
                         tbody { @for (row, leverage) in rows.iter().take(LISTED) { tr { td.number { (row) } td.number { (format!("{leverage:.2}")) } } } }
                     }
                 }))
-                @if rows.len() > LISTED { p { "The first " (LISTED) " of " (rows.len()) "; report.json lists all." } }
+                @if rows.len() > LISTED { p { "The first " (LISTED) " of " (rows.len()) " are shown. All are listed in report.json." } }
             }
         }
     }
@@ -262,14 +262,14 @@ fn set_aside(diagnosis: &Diagnosis) -> Markup {
     html! {
         @if !aside.is_empty() {
             details {
-                summary { (crate::counted(aside.len())) " set aside" }
-                (scrolled("Rows set aside", &html! {
+                summary { (crate::outliers(aside.len())) " excluded" }
+                (scrolled("Outliers", &html! {
                     table {
                         thead { tr { th scope="col" { "row" } th scope="col" { "why" } } }
                         tbody { @for aside in aside.iter().take(LISTED) { tr { td { (words::row(aside)) } td { (aside.why) } } } }
                     }
                 }))
-                @if aside.len() > LISTED { p { "The first " (LISTED) " of " (aside.len()) "; report.json lists all." } }
+                @if aside.len() > LISTED { p { "The first " (LISTED) " of " (aside.len()) " are shown. All are listed in report.json." } }
             }
         }
     }
@@ -279,10 +279,10 @@ fn not_shown(diagnosis: &Diagnosis) -> Markup {
     html! {
         @if !diagnosis.not_shown.is_empty() {
             details {
-                summary { "What these data could not have shown" }
-                (scrolled("Effects that do not show", &html! {
+                summary { "Effects that these data could not show" }
+                (scrolled("Effects that could not show", &html! {
                     table {
-                        thead { tr { th scope="col" { "effect" } th scope="col" { "does not show" } th scope="col" { "what becomes of it" } } }
+                        thead { tr { th scope="col" { "effect" } th scope="col" { "cannot show" } th scope="col" { "why" } } }
                         tbody {
                             @for effect in diagnosis.not_shown.iter().take(LISTED) {
                                 tr { td { (effect.name) } td { (words::size(effect)) } td { (words::fate(effect)) } }
@@ -291,7 +291,7 @@ fn not_shown(diagnosis: &Diagnosis) -> Markup {
                     }
                 }))
                 @if diagnosis.noise.expected_rms > 0.0 {
-                    p.quiet { "Noise of an observation: " (numbers::told(diagnosis.noise.expected_rms, diagnosis.unit)) "." }
+                    p.quiet { "Noise of one row: " (numbers::told(diagnosis.noise.expected_rms, diagnosis.unit)) "." }
                 }
             }
         }

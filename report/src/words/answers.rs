@@ -1,18 +1,18 @@
 //! The five answers that stand first: what happened, what it is, where, how much better, what to do next.
 
-use super::causes::{each_once, sentence_case};
+use super::better::better;
+use super::causes::each_once;
 use super::columns::{self, implausible_values, misread};
-use super::effects::{chance_of_all, headline, place};
-use super::left::{function_form, remaining};
+use super::effects::{chance_of_all, headline, moves, place};
+use super::left::function_form;
 use super::numbers::{short, times};
 use super::rivals::rival;
 use super::step::Step;
-use super::steps::{fits_otherwise, is_misread, is_unconfirmed, is_worse, steps};
-use calibration::diagnose::{Caution, Diagnosis, EffectFound, Ended, EveryRow, Rms, Verdict};
+use super::steps::{
+    fits_otherwise, is_hardly_repeated, is_misread, is_unconfirmed, is_worse, shows_nothing, steps,
+};
+use calibration::diagnose::{Caution, Diagnosis, EffectFound, Ended, EveryRow, Verdict};
 use observe::SiUnit;
-
-/// Rows far out hide what became of the others where a figure over every row is so many times theirs.
-const HIDDEN: f64 = 1.5;
 
 /// How good the news is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,7 +32,7 @@ pub enum Tone {
 pub struct Answers {
     /// How good the news is.
     pub tone: Tone,
-    /// What happened, in a word or two: `Cause found`.
+    /// What happened, in a word or two: `Effect found`.
     pub badge: String,
     /// What happened, in a sentence.
     pub happened: String,
@@ -42,7 +42,7 @@ pub struct Answers {
     pub what: Vec<String>,
     /// The causes that fit, of all effects, each once.
     pub causes: Vec<String>,
-    /// Where, one for each effect.
+    /// Where the effects sit, each place once.
     pub places: Vec<String>,
     /// How much better, in a sentence.
     pub better: String,
@@ -62,7 +62,7 @@ pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) -> An
     let mut causes = each_once(effects.iter().flat_map(|effect| &effect.causes));
     if let Some((one, of)) = one_for_several(diagnosis).filter(|_| !are_beaten) {
         let of = if of == effects.len() { "all".to_owned() } else { of.to_string() };
-        causes.insert(0, format!("{one}, in place of {of} of them"));
+        causes.insert(0, format!("{one}, instead of {of} of the effects"));
     }
     let usable = diagnosis.verdict.is_usable();
     let what = match (usable && !is_answered_otherwise, &diagnosis.remaining) {
@@ -72,9 +72,9 @@ pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) -> An
             .iter()
             .map(|place| {
                 format!(
-                    "The body {} moves in {} as {} changes: a {}.",
+                    "The body {} {} as {} changes: a {}.",
                     place.body,
-                    place.dof,
+                    moves(&place.dof),
                     place.driver,
                     function_form(&place.form)
                 )
@@ -85,7 +85,7 @@ pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) -> An
     Answers {
         tone: tone(diagnosis),
         badge: badge(diagnosis),
-        happened: [Some(happened(diagnosis)), elsewhere(diagnosis), searched(diagnosis)]
+        happened: [Some(happened(diagnosis)), outside(diagnosis), searched(diagnosis)]
             .into_iter()
             .flatten()
             .collect::<Vec<_>>()
@@ -93,28 +93,40 @@ pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) -> An
         chance: if usable { chance_of_all(&effects, diagnosis) } else { None },
         what,
         causes,
-        places: effects.iter().map(|effect| place(effect, diagnosis)).collect(),
+        places: once(effects.iter().map(|effect| place(effect, diagnosis))),
         better: better(diagnosis),
         next: steps(diagnosis, folder, command),
     }
 }
 
+/// Texts in their order, each once.
+fn once(texts: impl Iterator<Item = String>) -> Vec<String> {
+    let mut found: Vec<String> = Vec::new();
+    for text in texts {
+        if !found.contains(&text) {
+            found.push(text);
+        }
+    }
+    found
+}
+
 /// Where not to correct with it.
-fn elsewhere(diagnosis: &Diagnosis) -> Option<String> {
-    is_worse_elsewhere(diagnosis).then(|| {
-        "Where these data do not lie the effects make it worse: correct only where they do.".to_owned()
+fn outside(diagnosis: &Diagnosis) -> Option<String> {
+    is_worse_outside(diagnosis).then(|| {
+        "Outside the measured range this correction increases the error. Use the correction only inside that range."
+            .to_owned()
     })
 }
 
 /// How many rows were searched, where not all were.
 fn searched(diagnosis: &Diagnosis) -> Option<String> {
     let EveryRow { rows, files, converged, .. } = diagnosis.every_row.as_ref()?;
-    let files = if *files > 1 { format!(", drawn from {files} files") } else { String::new() };
-    let errors = if *converged { "; the errors are from every row" } else { "" };
-    Some(format!("The search read {} of {rows} rows{files}{errors}.", diagnosis.observations.rows))
+    let files = if *files > 1 { format!(" from {files} files") } else { String::new() };
+    let errors = if *converged { " The errors are estimated from every row." } else { "" };
+    Some(format!("The search used {} of {rows} rows{files}.{errors}", diagnosis.observations.rows))
 }
 
-fn is_worse_elsewhere(diagnosis: &Diagnosis) -> bool {
+fn is_worse_outside(diagnosis: &Diagnosis) -> bool {
     diagnosis.cautions.iter().any(|caution| matches!(caution, Caution::WorseElsewhere { .. }))
 }
 
@@ -123,9 +135,11 @@ fn tone(diagnosis: &Diagnosis) -> Tone {
         Verdict::FitFailed | Verdict::ColumnMisread | Verdict::TooFewObservations => Tone::Bad,
         _ if is_worse(diagnosis) => Tone::Bad,
         _ if is_misread(diagnosis)
-            || is_worse_elsewhere(diagnosis)
+            || is_worse_outside(diagnosis)
             || rival(diagnosis).is_some()
-            || is_unconfirmed(diagnosis).is_some() =>
+            || is_unconfirmed(diagnosis).is_some()
+            || is_hardly_repeated(diagnosis)
+            || shows_nothing(diagnosis) =>
         {
             Tone::Careful
         }
@@ -137,25 +151,43 @@ fn tone(diagnosis: &Diagnosis) -> Tone {
 
 fn badge(diagnosis: &Diagnosis) -> String {
     let count = diagnosis.effects.len();
+    let effects = if count == 1 { "effect" } else { "effects" };
     match diagnosis.verdict {
         Verdict::ColumnMisread if misread(diagnosis).is_some() => "A column is misread".to_owned(),
         _ if fits_otherwise(diagnosis) => "Likely read wrongly".to_owned(),
         _ if let Some(rival) = rival(diagnosis) => rival.badge.to_owned(),
-        _ if is_worse(diagnosis) => "Worse on data that nobody fitted".to_owned(),
-        Verdict::Explained if count > 1 => format!("{count} causes found"),
-        Verdict::Confounded if count > 1 => format!("{count} effects found"),
-        Verdict::Explained | Verdict::Confounded => "Cause found".to_owned(),
-        Verdict::FormNotDetermined => "Place found, form open".to_owned(),
-        Verdict::UnnamedFunction => "Place found, cause unknown".to_owned(),
-        Verdict::StructureRemains => "Something is left".to_owned(),
-        Verdict::NoiseExceedsStated => "Noisier than stated".to_owned(),
-        Verdict::NothingDetectable if is_unconfirmed(diagnosis).is_some() => "Not confirmed".to_owned(),
+        _ if is_worse(diagnosis) => "Worse on held-out data".to_owned(),
+        _ if is_hardly_repeated(diagnosis) && count == 1 => "Possible effect, not confirmed".to_owned(),
+        _ if is_hardly_repeated(diagnosis) => format!("{count} possible effects, not confirmed"),
+        Verdict::Confounded if let [effect] = diagnosis.effects.as_slice() => match effect.causes.len() {
+            0 | 1 => format!("Effect found, {} possible models", 1 + effect.competing_with.len()),
+            causes => format!("Effect found, {causes} possible causes"),
+        },
+        Verdict::Explained if count == 1 => "Effect found".to_owned(),
+        Verdict::Explained | Verdict::Confounded => format!("{count} effects found"),
+        Verdict::FormNotDetermined if count == 1 => "Effect located, shape unknown".to_owned(),
+        Verdict::FormNotDetermined => {
+            format!("{count} effects found, {} of unknown shape", of_unknown_shape(diagnosis))
+        }
+        Verdict::UnnamedFunction if count == 0 => "Effect located, cause unknown".to_owned(),
+        Verdict::UnnamedFunction => format!("{count} {effects} found, one more located"),
+        Verdict::StructureRemains if count == 0 => "Unexplained error found".to_owned(),
+        Verdict::StructureRemains => format!("{count} {effects} found, more remains"),
+        Verdict::NoiseExceedsStated => "Noise larger than stated".to_owned(),
+        Verdict::NothingDetectable if is_unconfirmed(diagnosis).is_some() || shows_nothing(diagnosis) => {
+            "Not enough data".to_owned()
+        }
         Verdict::NothingDetectable => "Nothing missing found".to_owned(),
-        Verdict::TooFewObservations => "Too few observations".to_owned(),
+        Verdict::TooFewObservations => "Not enough data".to_owned(),
         Verdict::ColumnMisread => "A column is misread".to_owned(),
         Verdict::FitFailed if implausible_values(diagnosis).is_some() => "Model or column wrong".to_owned(),
-        Verdict::FitFailed => "The fit failed".to_owned(),
+        Verdict::FitFailed => "Fit failed".to_owned(),
     }
+}
+
+/// Effects whose function these data do not determine.
+fn of_unknown_shape(diagnosis: &Diagnosis) -> usize {
+    diagnosis.effects.iter().filter(|effect| !effect.form_determined).count()
 }
 
 /// What explains the data about as well as several effects that were accepted, and of how many it would take the place; the
@@ -176,49 +208,58 @@ fn one_for_several(diagnosis: &Diagnosis) -> Option<(&str, usize)> {
     best
 }
 
-/// The verdict in a sentence.
+/// The verdict in sentences, under the badge.
 fn happened(diagnosis: &Diagnosis) -> String {
     let count = diagnosis.effects.len();
     if fits_otherwise(diagnosis) {
         let strayed = diagnosis.cautions.iter().any(|caution| matches!(caution, Caution::StationsStrayed(_)));
-        let told = if strayed {
-            "The stations come out elsewhere than the study puts them. Where an angle runs the other way, errors have the wrong sign."
+        let own = if strayed {
+            "The fitted stations are not where the study places them. If an angle runs the wrong way, the errors have the wrong sign."
         } else {
-            "The data, or the places that the study states, are likely read in a way that they were not meant in: no number here means \
-             anything."
+            "The data or the stated places were likely read in the wrong way. Do not use any number here."
         };
-        return told.to_owned();
+        return own.to_owned();
     }
     if let Some(rival) = rival(diagnosis) {
         return rival.happened.to_owned();
     }
+    if is_worse(diagnosis) {
+        return "The effects fit these rows, but not the held-out rows.".to_owned();
+    }
+    if is_hardly_repeated(diagnosis) {
+        return match count {
+            1 => "The effect could be chance. Fewer than half of the repeated searches found this effect.",
+            _ => "Each of the effects could be chance. Fewer than half of the repeated searches found them.",
+        }
+        .to_owned();
+    }
     if let Verdict::Confounded | Verdict::UnnamedFunction = diagnosis.verdict
         && let Some((one, of)) = one_for_several(diagnosis)
     {
-        let of = if of == count { "all".to_owned() } else { of.to_string() };
-        return format!("{count} effects found; in place of {of} of them these data fit one as well: {one}.");
+        let of = if of == count { format!("All {count}") } else { format!("{of} of the {count}") };
+        return format!("{of} effects may be a single one: {one}.");
     }
     match diagnosis.verdict {
-        Verdict::Explained if count == 1 => {
-            "Cause found; it alone explains what the declaration left over.".to_owned()
-        }
-        Verdict::Explained => {
-            format!("{count} causes found; together they explain what the declaration left over.")
-        }
+        Verdict::Explained if count == 1 => "With this effect, the residual looks like noise.".to_owned(),
+        Verdict::Explained => format!("With these {count} effects, the residual looks like noise."),
         Verdict::Confounded if count == 1 => {
             let effect = &diagnosis.effects[0];
             match (effect.causes.len(), effect.competing_with.as_slice()) {
                 (0 | 1, [names]) => {
-                    format!("Cause found; {} explains these data about as well.", names.join(" or "))
+                    format!("Another model fits these data nearly equally: {}.", names.join(" or "))
                 }
-                (0 | 1, others) => {
-                    format!("Cause found; {} other models explain these data about as well.", others.len())
-                }
-                (fit, _) if effect.causes.iter().all(|cause| cause.share.is_none()) => {
-                    format!("Cause found; these data fit {fit} physical causes equally well.")
-                }
+                (0 | 1, others) => format!("{} other models fit these data nearly equally.", others.len()),
                 (fit, _) => {
-                    format!("Cause found; these data fit {fit} physical causes. Their shares stand below.")
+                    let shares = match effect.causes.iter().any(|cause| cause.share.is_some()) {
+                        true => " Their shares are listed below.",
+                        false => "",
+                    };
+                    // Another cause puts objects that nobody surveyed at other places.
+                    let correction = match diagnosis.observations.unknown_objects {
+                        Some(_) => "",
+                        None => " The correction is nearly the same for all.",
+                    };
+                    format!("The data cannot choose between these {fit} causes.{shares}{correction}")
                 }
             }
         }
@@ -226,45 +267,42 @@ fn happened(diagnosis: &Diagnosis) -> String {
             let is_open =
                 |effect: &&EffectFound| effect.causes.len() > 1 || !effect.competing_with.is_empty();
             let open = diagnosis.effects.iter().filter(is_open).count();
-            format!("{count} effects found; for {open} of them these data fit something else about as well.")
+            format!("For {open} of the {count} effects, other causes fit these data nearly equally.")
         }
         Verdict::FormNotDetermined if count == 1 => {
             let effect = &diagnosis.effects[0];
             let others: Vec<&str> =
                 effect.competing_with.iter().take(2).map(|names| names[0].as_str()).collect();
             format!(
-                "Something moves at one place; these data fit several functions of {} about as well: {}, or {}.",
+                "Several functions of {} fit nearly equally: {}, or {}.",
                 effect.driver,
                 effect.names[0],
                 others.join(", or ")
             )
         }
-        Verdict::FormNotDetermined => {
-            let open = diagnosis.effects.iter().filter(|effect| !effect.form_determined).count();
-            format!(
-                "{count} effects found; for {open} of them these data fit several functions of a reading about as well."
-            )
-        }
-        Verdict::UnnamedFunction if count > 0 => format!(
-            "{count} {} found, but one function at one place fits better than the catalogue, which has no name for it.",
-            if count == 1 { "effect" } else { "effects" }
+        Verdict::FormNotDetermined => format!(
+            "For {} of the {count} effects, several functions of a reading fit nearly equally.",
+            of_unknown_shape(diagnosis)
         ),
         Verdict::UnnamedFunction => {
-            "Something moves at one place, as a function that the catalogue has no name for.".to_owned()
+            let place = diagnosis.remaining.as_ref().and_then(|left| left.place.as_ref());
+            match place.filter(|_| count > 0) {
+                Some(place) => format!(
+                    "One more error follows {}: a {}. No known cause has this shape.",
+                    place.driver,
+                    function_form(&place.form)
+                ),
+                None => "No known cause has the shape of this error.".to_owned(),
+            }
         }
-        Verdict::StructureRemains if count > 0 => format!(
-            "{count} {} found, but what is left has structure that nothing in the catalogue explains.",
-            if count == 1 { "effect" } else { "effects" }
-        ),
         Verdict::StructureRemains => {
-            "What the declaration leaves over has structure that nothing in the catalogue explains."
-                .to_owned()
+            "The residual has a pattern that nothing in the catalogue explains.".to_owned()
         }
         Verdict::NoiseExceedsStated => {
             let ratio =
                 diagnosis.noise.over_stated.map_or_else(String::new, |ratio| format!("{} ", times(ratio)));
             format!(
-                "The residual is {ratio}as large as the stated noise, and nothing in the catalogue explains it."
+                "The residual is {ratio}as large as the stated noise. Nothing in the catalogue explains the difference."
             )
         }
         Verdict::NothingDetectable
@@ -273,14 +311,15 @@ fn happened(diagnosis: &Diagnosis) -> String {
                 .iter()
                 .any(|caution| matches!(caution, Caution::ResidualIsRounding { .. })) =>
         {
-            "The declaration explains these data to the last digit; what is left is rounding.".to_owned()
+            "The model explains these data to the last digit. Only rounding remains.".to_owned()
         }
-        Verdict::NothingDetectable => {
-            "No effect that the declaration lacks stands out from the noise.".to_owned()
+        Verdict::NothingDetectable if shows_nothing(diagnosis) => {
+            "These data contain none of the declared errors.".to_owned()
         }
+        Verdict::NothingDetectable => would_have_shown(diagnosis),
         Verdict::TooFewObservations => too_few(diagnosis),
         Verdict::ColumnMisread => {
-            let otherwise = || "The data fit when they are read otherwise than the study says.".to_owned();
+            let otherwise = || "The data fit if a column is read in another way.".to_owned();
             misread(diagnosis).map_or_else(otherwise, columns::told)
         }
         Verdict::FitFailed if let Some(values) = implausible_values(diagnosis) => {
@@ -288,20 +327,43 @@ fn happened(diagnosis: &Diagnosis) -> String {
         }
         Verdict::FitFailed => {
             let why = match diagnosis.fit.amended {
-                Ended::NotConverged { steps } => format!("reached no minimum in {steps} steps"),
+                Ended::NotConverged { steps } => format!("The fit found no minimum in {steps} steps."),
                 Ended::FarOff { .. } if diagnosis.unit == SiUnit::METRE => {
-                    "ended with half of the points further off than a fifth of the way to what they observe: look at columns, labels, \
-                     signs, units and stated places"
-                        .to_owned()
+                    "After the fit, half of the points miss by more than a fifth of the distance to their target.".to_owned()
                 }
                 Ended::FarOff { .. } => {
-                    "ended with half of the directions more than 11° off: look at columns, signs, units and frame"
-                        .to_owned()
+                    "After the fit, half of the directions miss by more than 11°.".to_owned()
                 }
-                Ended::Converged { .. } | Ended::TooFewObservations { .. } => "reached no minimum".to_owned(),
+                Ended::Converged { .. } | Ended::TooFewObservations { .. } => {
+                    "The fit found no minimum.".to_owned()
+                }
             };
-            format!("The fit {why}. Its numbers mean nothing, and no search was made.")
+            format!("{why} No search was made. Do not use these numbers.")
         }
+    }
+}
+
+/// From which size on an effect would have shown: one that is not among those that could hide is found four times out of five
+/// where it is as large as the residual.
+fn would_have_shown(diagnosis: &Diagnosis) -> String {
+    let kind = match diagnosis.unit {
+        SiUnit::RAD => "rotation",
+        SiUnit::METRE => "displacement",
+        _ => "effect",
+    };
+    let size = diagnosis.after.rms_kept.filter(|rms| rms.is_finite() && *rms > 0.0);
+    let Some(size) = size.filter(|_| diagnosis.search.is_some()) else {
+        return "No missing effect is larger than the noise.".to_owned();
+    };
+    let shown = format!(
+        "A missing {kind} above {} would have been found four times out of five.",
+        short(size, diagnosis.unit)
+    );
+    let hidden = diagnosis.not_shown.iter().filter(|effect| effect.unit == diagnosis.unit).count();
+    match hidden {
+        0 => shown,
+        1 => format!("{shown} One kind of {kind} could not show in these data."),
+        hidden => format!("{shown} {hidden} kinds of {kind} could not show in these data."),
     }
 }
 
@@ -312,88 +374,18 @@ fn too_few(diagnosis: &Diagnosis) -> String {
                 0 => String::new(),
                 numbers => format!(" and {numbers} numbers of objects and stations"),
             };
+            let rows = match diagnosis.observations.rows {
+                1 => "1 row".to_owned(),
+                rows => format!("{rows} rows"),
+            };
             format!(
-                "{} observations have {components} measured components, and these data determine {} combinations of {} \
-                 errors{of_objects}: nothing is left to judge them by.",
-                diagnosis.observations.rows, diagnosis.fit.rank[0], diagnosis.fit.rank[1]
+                "{rows} with {components} measured components cannot determine and check {} errors{of_objects}.",
+                diagnosis.fit.rank[1]
             )
         }
         Ended::Converged { .. } | Ended::NotConverged { .. } | Ended::FarOff { .. } => {
-            "An effect stands out, but it rests on fewer than six observations: it was left out.".to_owned()
+            "One effect may be missing, but fewer than six rows support it. The model was not changed."
+                .to_owned()
         }
     }
-}
-
-/// How much better, of one unit of residuals after the other.
-fn better(diagnosis: &Diagnosis) -> String {
-    let observed = diagnosis.instrument.observed.first().map_or("residual", |seen| &seen.name);
-    let first = of_unit(diagnosis, observed, diagnosis.unit, [diagnosis.before, diagnosis.after]);
-    let beside = diagnosis.beside.iter().filter_map(|own| {
-        let observed = own.observed.first()?;
-        Some(of_unit(diagnosis, observed, own.unit, [own.before, own.after]))
-    });
-    let mut all: Vec<String> = std::iter::once(first).chain(beside).collect();
-    all.extend(diagnosis.every_row.as_ref().and_then(|every| every.validation).map(|left| {
-        let [before, after] = [left.before_kept, left.after_kept].map(|rms| short(rms, diagnosis.unit));
-        format!("On the {} rows that the search did not read it goes from {before} to {after}.", left.rows)
-    }));
-    let is_told = diagnosis.verdict.is_usable() && !diagnosis.effects.is_empty();
-    all.extend(
-        remaining(diagnosis)
-            .into_iter()
-            .next()
-            .filter(|_| is_told)
-            .map(|left| format!("{}.", sentence_case(&left))),
-    );
-    all.join(" ")
-}
-
-/// How much better the residuals of an observable are.
-fn of_unit(diagnosis: &Diagnosis, observed: &str, unit: SiUnit, [before, after]: [Rms; 2]) -> String {
-    let told = |si: f64| short(si, unit);
-    let fitted = |rms: Option<f64>| {
-        rms.map_or_else(
-            || "no number, since the fit left none,".to_owned(),
-            |rms| format!("{} (RMS)", told(rms)),
-        )
-    };
-    if !diagnosis.verdict.is_usable() {
-        return format!("No better: the {observed} error is {} as fitted.", fitted(before.rms));
-    }
-    let without = after.held_out_rows - after.held_out_rows_kept;
-    let hides = |all: f64, kept: f64| without > 0 && all > HIDDEN * kept;
-    let is_hidden =
-        after.held_out_rms.zip(after.held_out_rms_kept).is_some_and(|(all, kept)| hides(all, kept));
-    let rows = if without == 1 { "row" } else { "rows" };
-    if diagnosis.effects.is_empty() {
-        let (own, held_out, but_for) = match is_hidden {
-            true => (after.rms_kept, after.held_out_rms_kept, format!(", without {without} {rows} far out")),
-            false => (after.rms, after.held_out_rms, String::new()),
-        };
-        let held_out =
-            held_out.map_or_else(String::new, |rms| format!("; {} on data that nobody fitted", told(rms)));
-        return format!(
-            "The {observed} error of the fitted declaration is {}{held_out}{but_for}.",
-            fitted(own)
-        );
-    }
-    let pairs = [
-        (
-            format!("on data that nobody fitted, without {without} {rows} far out,"),
-            before.held_out_rms_kept.zip(after.held_out_rms_kept).filter(|_| is_hidden),
-        ),
-        ("on data that nobody fitted".to_owned(), before.held_out_rms.zip(after.held_out_rms)),
-        ("on the data that were fitted".to_owned(), before.rms.zip(after.rms)),
-    ];
-    let Some((where_, from, to)) =
-        pairs.into_iter().find_map(|(where_, pair)| pair.map(|(from, to)| (where_, from, to)))
-    else {
-        return format!("The {observed} error is {} before.", fitted(before.rms));
-    };
-    let ratio = match from / to {
-        ratio if ratio >= 1.05 => format!(", {} smaller", times(ratio)),
-        ratio if ratio < 1.0 => ": it gets worse".to_owned(),
-        _ => ", hardly smaller".to_owned(),
-    };
-    format!("The {observed} error (RMS) {where_} goes from {} to {}{ratio}.", told(from), told(to))
 }

@@ -16,7 +16,7 @@ pub fn cause(cause: &Cause) -> String {
     }
 }
 
-/// Causes in words, each once, with its share where a contest weighed several; one line for an encoder that errs so many times a turn,
+/// Causes in words, each once, with its share where a contest weighed several; one line for an encoder that errs several times per turn,
 /// whatever the number.
 #[must_use]
 pub fn each_once<'a>(causes: impl Iterator<Item = &'a Cause>) -> Vec<String> {
@@ -40,8 +40,11 @@ pub fn each_once<'a>(causes: impl Iterator<Item = &'a Cause>) -> Vec<String> {
             orders.sort_unstable();
             orders.dedup();
             let orders: Vec<String> = orders.iter().map(ToString::to_string).collect();
-            let words =
-                if orders.is_empty() { words } else { format!("{words} {} times a turn", orders.join(", ")) };
+            let words = if orders.is_empty() {
+                words
+            } else {
+                format!("{words} {} times per turn", orders.join(", "))
+            };
             match shares.iter().sum::<f64>() {
                 share if share > 0.0 && share < SURE => format!("{words} ({})", percent(share)),
                 _ => words,
@@ -75,10 +78,10 @@ fn plainly(name: &str) -> String {
     }
     if let Some((joint, body)) = rest("coupling of ").and_then(|rest| rest.split_once(" into ")) {
         let (body, order) = body.rsplit_once(", harmonic ").unwrap_or((body, "1"));
-        return format!("moving {joint} moves {body}, {}", times_a_turn(order));
+        return format!("moving {joint} {}, {}", pushed(body), times_a_turn(order));
     }
     if let Some((joints, body)) = name.split_once(" together in ") {
-        return format!("moving {joints} together moves {body}");
+        return format!("moving {joints} together {}", pushed(body));
     }
     if let Some(joint) =
         rest("beam not along the ").and_then(|joint| joint.strip_suffix(" axis before its mirror"))
@@ -94,11 +97,17 @@ fn at_its_axis(place: &str) -> Option<(&str, &str)> {
     Some((&place[..at], &place[at + 1..]))
 }
 
+/// What is done to `outer about x`: `tilts outer about x`.
+fn pushed(place: &str) -> String {
+    let does = if place.contains(" along ") { "shifts" } else { "tilts" };
+    format!("{does} {place}")
+}
+
 fn times_a_turn(order: &str) -> String {
     match order {
-        "1" => "once a turn".to_owned(),
-        "2" => "twice a turn".to_owned(),
-        order => format!("{order} times a turn"),
+        "1" => "once per turn".to_owned(),
+        "2" => "twice per turn".to_owned(),
+        order => format!("{order} times per turn"),
     }
 }
 
@@ -126,7 +135,7 @@ pub fn form(form: &Dependence, driver: &str) -> String {
     if with.is_empty() { told } else { format!("{told}, changing with {with}") }
 }
 
-/// A sentence's start. A name of the instrument's own, which digits and underscores tell, stays as it is.
+/// A sentence's start. A name of the instrument's own, which digits and underscores show, stays as it is.
 #[must_use]
 pub fn sentence_case(text: &str) -> String {
     let first = text.split([' ', ',', ':']).next().unwrap_or_default();
@@ -168,15 +177,15 @@ mod tests {
         assert_eq!(
             each_once(causes.iter().chain(&causes)),
             [
-                "the encoder of q1 errs 3, 10 times a turn",
+                "the encoder of q1 errs 3, 10 times per turn",
                 "the encoder of q1 sits off centre",
-                "the encoder of q2 errs 4 times a turn"
+                "the encoder of q2 errs 4 times per turn"
             ]
         );
     }
 
     #[test]
-    fn names_of_bodies_stand_as_they_are() {
+    fn names_of_bodies_stay_as_they_are() {
         let told = |name| cause(&named(name));
         assert_eq!(
             told("gravity flexure of axis_2 about x, times pier"),
@@ -184,11 +193,11 @@ mod tests {
         );
         assert_eq!(
             told("coupling of beta into outer about x, harmonic 2"),
-            "moving beta moves outer about x, twice a turn"
+            "moving beta tilts outer about x, twice per turn"
         );
         assert_eq!(
             told("q2 and q3 together in joint2 about z"),
-            "moving q2 and q3 together moves joint2 about z"
+            "moving q2 and q3 together tilts joint2 about z"
         );
         assert_eq!(sentence_case("q2_a wanders"), "q2_a wanders");
         assert_eq!(sentence_case("étagère"), "Étagère");

@@ -6,105 +6,106 @@ use super::numbers::{reading, short, times, told, told_in};
 use calibration::diagnose::{Caution, LengthsOff, Moved, TwoPlaces, Uneven};
 use observe::SiUnit;
 
-/// A caution in a sentence.
+/// A caution in sentences.
 #[must_use]
 pub fn caution(caution: &Caution) -> String {
     match caution {
         Caution::WorseHeldOut { before, after, unit } => format!(
-            "On data that nobody fitted it is worse with the effects: {} before, {} after. Do not correct with it.",
+            "The effects increase the error on held-out data from {} to {}. Do not correct with them.",
             short(*before, *unit),
             short(*after, *unit)
         ),
         Caution::HardlyMoreNumbers { numbers, unknowns } => format!(
-            "{numbers} numbers were measured for {unknowns} unknowns: too few are left over to judge the noise by, or the errors."
+            "{numbers} measured numbers for {unknowns} unknowns are too few to check the noise or the errors. Measure more rows."
         ),
         Caution::ForetoldBadly { fitted, held_out, unit } => format!(
-            "Data that nobody fitted are off by {}, {} as much as those that were fitted ({}): single rows decide what comes out.",
+            "Held-out data miss by {}, fitted data by {} ({}). Single rows decide the result. Measure more rows.",
             short(*held_out, *unit),
-            times(held_out / fitted),
-            short(*fitted, *unit)
+            short(*fitted, *unit),
+            times(held_out / fitted)
         ),
-        Caution::NotConfirmed { effects, p_value, before, after, unit } => format!(
-            "{} stood out (p = {p_value:.3}), but data that nobody fitted do not confirm it: {} without, {} with. It was \
-             left out; measure more to decide.",
-            effects.join("; "),
-            short(*before, *unit),
-            short(*after, *unit)
-        ),
+        Caution::NotConfirmed { effects, p_value, before, after, unit } => {
+            let goes = if after > before { "increases" } else { "hardly changes" };
+            format!(
+                "{} appeared (p = {p_value:.3}), but it {goes} the error on held-out data ({} without, {} with). The model was not changed. \
+                 Measure more rows to decide.",
+                effects.join(", "),
+                short(*before, *unit),
+                short(*after, *unit)
+            )
+        }
         Caution::FollowsOrder { effects, remembers, setups, column } => {
             let why = match (column, setups, remembers) {
-                (Some(column), ..) => format!("the rows differ by their `{column}`, and that"),
-                (None, 2.., _) => {
-                    format!("the rows fall into about {setups} set-ups, and differences between them")
-                }
-                (None, _, true) => "each row is off like the row before it, and that".to_owned(),
+                (Some(column), ..) => format!("a change with the column `{column}`"),
+                (None, 2.., _) => format!("a change between about {setups} set-ups"),
+                (None, _, true) => "a slow drift from row to row".to_owned(),
                 (None, ..) => "noise".to_owned(),
             };
-            let explain = if column.is_none() && *setups > 1 { "explain" } else { "explains" };
             let next = match column {
-                Some(_) => "Rows with one value of it belong together.".to_owned(),
-                None => "If the rows were measured in sessions, name their column: `group = \"…\"` in the study. To decide, measure the \
+                Some(column) => format!("Group the rows by that column: `group = {column:?}` in the study."),
+                None => "If the rows were measured in sessions, name their column: `group = \"…\"` in the study. Otherwise measure the \
                          same poses again in another order."
                     .to_owned(),
             };
             format!(
-                "{} stood out, but {why} {explain} these data as well. It was left out. {next}",
-                effects.join("; ")
+                "{} appeared, but cannot be separated from {why}. The model was not changed. {next}",
+                effects.join(", ")
             )
         }
         Caution::WorseElsewhere { before, after, unit } => format!(
-            "In regions of the joints that were left out it is worse with the effects: {} before, {} after. Correct only \
-             where these data lie.",
+            "In unmeasured regions of the joints the effects increase the error from {} to {}. Correct only within the measured range.",
             short(*before, *unit),
             short(*after, *unit)
         ),
         Caution::FewBehindAnEffect { effect, observations } => {
             format!(
-                "{effect} stood out, but it rests on about {observations:.1} observations. It was left out; repeat them \
-                 first."
+                "{effect} appeared, but only about {observations:.1} rows support it. The model was not changed. Repeat these rows."
             )
         }
         Caution::StationBehindAnEffect { effect, station } => format!(
-            "{effect} stood out, but only by where station `{station}` is stated to be: without that it does not. It was left out. Check \
-             that place; if it is right, declare the effect."
+            "{effect} appeared, but only the stated place of station `{station}` supports it. The model was not changed. Check that place. \
+             If the place is right, declare the effect."
         ),
         Caution::LimitOfEffects { effects } => {
-            format!("The search stopped at {effects} effects, as many as it may accept; there may be more.")
+            format!(
+                "The search stopped at its limit of {effects} effects. To look for more, raise `[search] most`."
+            )
         }
         Caution::OfOnePlace { rows, places, beside_groups } => format!(
-            "Rows of one place agree more with each other than chance explains: the {rows} rows count as {places} groups, a \
-             place each. What a place shares is in the ±{}.",
-            if *beside_groups { ", and what your groups share is in the noise" } else { "" }
+            "Rows of one place share errors. The {rows} rows count as {places} groups, one for each place. The ± {} this.",
+            if *beside_groups { "and the noise of your groups include" } else { "include" }
         ),
-        Caution::OffAlike { rows, of_stretch, stretches } => format!(
-            "Rows that follow each other are off alike: something drifts, or a surface is not what it is taken for. The {rows} rows count \
-             as {stretches} stretches of {of_stretch}: the ± are larger for it, and an effect has to show in most stretches. What nobody \
-             fitted are whole objects, which were seen in the same stretches."
+        Caution::OffAlike { rows, stretches, .. } => format!(
+            "Consecutive rows share errors (drift, or a surface that is not flat). Uncertainties were enlarged: {rows} rows count as \
+             {stretches} independent blocks. Held-out data are whole objects, seen in the same blocks."
         ),
         Caution::NoisyReadings { reading, sigma, unit } => {
             let sigma = told(*sigma, *unit);
             format!(
-                "Noise of about {sigma} in the readings of `{reading}` looks like this as well: what is read too high is followed by a \
-                 residual that says so. If that is it, write `sigma` beside its column under [columns]."
+                "Noise of about {sigma} in the readings of `{reading}` cannot be separated from this effect. If the readings are that \
+                 noisy, write `sigma` beside their column under [columns]."
             )
         }
         Caution::Drifts { share } => format!(
-            "What is left drifts: rows remember those before them, which explains {:.0} % of its variance. The ± allow for it, but an \
-             effect that changes slowly may hide in it. `serial = false` under [noise] searches the drift for a cause.",
+            "The residual drifts: neighbouring rows explain {:.0} % of its variance. The ± include this drift. To search for the cause of the \
+             drift, write `serial = false` under [noise].",
             100.0 * share
         ),
         Caution::ReadingsNotAsStated { ratio } if *ratio < 1.0 => format!(
-            "Readings are less uncertain than your study states under [columns], {} less.",
+            "Your readings are {} less uncertain than the study states. Correct `sigma` under [columns].",
             times(1.0 / ratio)
         ),
         Caution::ReadingsNotAsStated { ratio } => {
-            format!("Readings are {} as uncertain as your study states under [columns].", times(*ratio))
+            format!(
+                "Your readings are {} as uncertain as the study states. Correct `sigma` under [columns].",
+                times(*ratio)
+            )
         }
         Caution::SetAsideShare { reading: name, from, to, unit, rows: [aside, there] } => {
             let own = reading(*unit, from.abs().max(to.abs()));
             format!(
-                "{aside} of the {there} rows with {name} from {} to {} were set aside: they share something that the \
-                 declaration lacks.",
+                "{aside} of the {there} rows with `{name}` from {} to {} are outliers. They share an error that the model does not \
+                 contain. Check these rows.",
                 told_in(*from, &own),
                 told_in(*to, &own)
             )
@@ -113,24 +114,24 @@ pub fn caution(caution: &Caution) -> String {
             let times = times(*ratio);
             match what {
                 Uneven::Station => format!(
-                    "The rows from station `{label}` scatter {times} as much as the others': did it move meanwhile?"
+                    "The rows from station `{label}` scatter {times} as much as other rows. Check whether the station moved."
                 ),
                 Uneven::Plane => format!(
-                    "The rows of `{label}` scatter {times} as much as the others': is it flat, and did it stay where it was?"
+                    "The rows of `{label}` scatter {times} as much as other rows. Check whether the surface is flat, and whether it moved."
                 ),
                 Uneven::Circle => format!(
-                    "The rows of `{label}` scatter {times} as much as the others': is it round, and did it stay where it was?"
+                    "The rows of `{label}` scatter {times} as much as other rows. Check whether the circle is round, and whether it moved."
                 ),
                 Uneven::Point | Uneven::Wire => format!(
-                    "The rows of `{label}` scatter {times} as much as the others': did it move, or are labels swapped?"
+                    "The rows of `{label}` scatter {times} as much as other rows. Check whether it moved, and whether labels are swapped."
                 ),
             }
         }
         Caution::ScaleOrPlaces { range, body, axis, scale, uncertainty } => {
             let [scale, uncertainty] = [scale, uncertainty].map(|ratio| short(*ratio, SiUnit::METRE));
             format!(
-                "A scale of `{range}` that nobody declared, {scale} ± {uncertainty} a metre, would put all stations where they are stated. If \
-                 those places are right, declare it: T{axis}({range}_scale*{range}) in the motion_error of body {body}."
+                "An undeclared scale of `{range}`, {scale} ± {uncertainty} per metre, would bring all stations to their stated places. If \
+                 those places are right, declare this scale: `T{axis}({range}_scale*{range})` in the motion_error of body {body}."
             )
         }
         Caution::NotWhereStated { what, label, sigmas, away_m, shift_m, turn_rad } => {
@@ -141,13 +142,12 @@ pub fn caution(caution: &Caution) -> String {
             let far = short(*away_m, SiUnit::METRE);
             match sigmas {
                 Some(sigmas) if *what == Uneven::Station && *away_m == 0.0 => format!(
-                    "{station}`{label}` comes out {} off level, {sigmas:.0} of its ±: was it levelled, and does the z of all other \
-                     stations and of the objects point up?",
+                    "{station}`{label}` is fitted {} out of level, {sigmas:.0} times its ±. Check whether it was levelled, and whether z \
+                     points up everywhere.",
                     short(*turn_rad, SiUnit::RAD)
                 ),
                 Some(sigmas) => format!(
-                    "{station}`{label}` comes out {far} from where the study states it, {sigmas:.0} of its ±: is {stated} wrong, or the \
-                     label another's?"
+                    "{station}`{label}` is fitted {far} away from its stated place, {sigmas:.0} times its ±. Check {stated} and the labels."
                 ),
                 None => {
                     let own = reading(SiUnit::METRE, *away_m);
@@ -158,58 +158,61 @@ pub fn caution(caution: &Caution) -> String {
                         String::new()
                     };
                     format!(
-                        "{station}`{label}` is {far} from where the study states it (x {x}, y {y}, z {z}{turn}), by all of its rows, which \
-                         were set aside for that: is {stated} wrong, or the label another's? State it rightly, or leave it out of \
-                         [{table}]."
+                        "{station}`{label}` is {far} away from its stated place (x {x}, y {y}, z {z}{turn}) by all of its rows. They were \
+                         excluded as outliers. Correct {stated} or the label, or remove the entry from [{table}]."
                     )
                 }
             }
         }
         Caution::FilesShareErrors { files, ratio } => format!(
-            "Rows of one file share an error: what the {files} files say scatters with {} the variance that their rows explain. The ± \
-             count each file as one.",
+            "Rows of one file share an error. The {files} files scatter with {} the variance that their rows explain. The ± count each \
+             file as one row.",
             times(*ratio)
         ),
         Caution::NotBorneOut { effects } => format!(
-            "Every row does not bear out {}: with all rows it is no larger than its ±. Leave it out.",
-            effects.join("; ")
+            "With all rows, {} is no larger than its ±. Remove it from the model.",
+            effects.join(", ")
         ),
         Caution::EveryRowNotFitted => {
-            "The fit of every row did not converge: the errors are those of the rows that were searched."
+            "The fit of every row did not converge. The errors come from the rows of the search alone."
                 .to_owned()
         }
         Caution::NothingProposed { why } => {
-            format!("What `[next]` asks for cannot be proposed: {why}.")
+            format!("The study asks for measurements under `[next]`, but none can be proposed ({why}).")
         }
         Caution::DeclarationNotFitted { steps } => format!(
-            "The declaration as it was could not be fitted in {steps} steps: figures before mean little."
+            "The declaration without the effects could not be fitted in {steps} steps. Do not use the figures before."
         ),
         Caution::NoiseExceedsStated { ratio } => {
-            format!("The residual is {} as large as the stated noise.", times(*ratio))
+            format!(
+                "The residual is {} as large as the stated noise. Check `sigma` under [noise].",
+                times(*ratio)
+            )
         }
         Caution::StatedTooLarge { ratio } => {
-            format!("Your stated uncertainties are {} too large.", times(1.0 / ratio))
+            format!(
+                "Your stated uncertainties are {} too large. Check `sigma` under [noise].",
+                times(1.0 / ratio)
+            )
         }
         Caution::DegreesAsRadians { source, joint, largest_rad } => format!(
-            "{source}: `{joint}` reaches {largest_rad:.0} rad, {:.0} turns: are these degrees taken for radians?",
+            "In {source}, `{joint}` reaches {largest_rad:.0} rad, {:.0} turns. If these are degrees, write `unit = \"deg\"` beside the column.",
             largest_rad / std::f64::consts::TAU
         ),
         Caution::RadiansAsDegrees { source, joint, largest_rad } => format!(
-            "{source}: `{joint}` stays within {:.1} deg: were radians taken for degrees?",
+            "In {source}, `{joint}` stays within {:.1} deg. If these are radians, write `unit = \"rad\"` beside the column.",
             largest_rad.to_degrees()
         ),
         Caution::OutOfPlace { source, but_for: Some([aside, rows]), .. } => format!(
-            "{source}: {aside} of the {rows} rows are far off and were set aside; the others are near. Are labels swapped, or are those rows \
-             another's?"
+            "In {source}, {aside} of the {rows} rows are outliers by a large distance. Check their labels, objects and stations."
         ),
         Caution::OutOfPlace { source, rms, unit, measured_m, but_for: None } => match measured_m {
             None => format!(
-                "{source}: the residual is {}: a swapped sign, swapped axes or a wrong unit is likely.",
+                "In {source}, the residual is {}. Check for a reversed sign, exchanged axes or a wrong unit.",
                 short(*rms, *unit)
             ),
             Some(measured) => format!(
-                "{source}: the residual is {} where {} were measured: a wrong unit, a swapped sign or swapped axes are \
-                 likely.",
+                "In {source}, the residual is {} at a measured {}. Check for a wrong unit, a reversed sign or exchanged axes.",
                 short(*rms, *unit),
                 told(*measured, SiUnit::METRE)
             ),
@@ -221,24 +224,20 @@ pub fn caution(caution: &Caution) -> String {
         Caution::Moved(own) => moved(own),
         Caution::LengthsOff(own) => lengths_off(own),
         Caution::TwoPlaces(TwoPlaces { label, apart_m, rows: [one, other], objects: [some, all] }) => {
-            let count = if *some > 1 {
-                format!(", and so do those of {some} of {all} objects")
-            } else {
-                String::new()
-            };
+            let count =
+                if *some > 1 { format!(", as are those of {some} of {all} objects") } else { String::new() };
             format!(
-                "The rows of `{label}` lie at two places {} apart ({one} and {other} rows){count}: are two things under one label, or did it move \
-                 meanwhile? Of two things name the column that tells them apart, too: object = [\"…\", \"…\"].",
+                "The rows of `{label}` are at two places {} apart ({one} and {other} rows){count}. Check whether it moved, or whether two \
+                 objects share one label. If two share one, also name the column that separates them: `object = [\"…\", \"…\"]`.",
                 short(*apart_m, SiUnit::METRE)
             )
         }
         Caution::ResidualIsRounding { rms, unit } => format!(
-            "What is left, {}, is the rounding of the numbers: these data have no noise, so that no effect was searched for.",
+            "The residual of {} is the rounding of the numbers. These data have no noise, so no search was made.",
             told(*rms, *unit)
         ),
         Caution::ErrorNotSmall { error, value_rad } => format!(
-            "`{error}` comes out at {:.0} deg, which is no small error: a swapped sign, an axis or an offset in the \
-             declaration?",
+            "`{error}` is {:.0} deg, too large for a small error. Check signs, axes and offsets in the declaration.",
             value_rad.to_degrees()
         ),
     }
@@ -247,27 +246,20 @@ pub fn caution(caution: &Caution) -> String {
 /// Stations that seem to have moved.
 fn moved(own: &Moved) -> String {
     let Moved { station, shift_m, turn_rad, instead_of } = own;
-    let by = format!(
-        "{} and {} in the order of its rows",
-        short(*shift_m, SiUnit::METRE),
-        short(*turn_rad, SiUnit::RAD)
-    );
-    let (who, by) = match station {
-        Some(label) => (format!("Station `{label}` seems"), format!("by {by}")),
-        None => ("The stations seem".to_owned(), format!("each by up to {by}")),
+    let by = format!("{} and {}", short(*shift_m, SiUnit::METRE), short(*turn_rad, SiUnit::RAD));
+    let who = match station {
+        Some(label) => format!("Station `{label}` likely moved by {by} during its rows."),
+        None => format!("The stations likely moved during their rows, each by up to {by}."),
     };
-    format!(
-        "{who} to have moved while measuring, {by}: {}. Let it stand firmly, and measure again.",
-        better_than(instead_of)
-    )
+    format!("{who} {} Fix the station firmly and measure again.", better_than(instead_of))
 }
 
-/// Lengths that seem to be told from another zero.
+/// Lengths that seem to be measured from another zero.
 fn lengths_off(LengthsOff { by_m, instead_of }: &LengthsOff) -> String {
     let long = if *by_m > 0.0 { "long" } else { "short" };
     format!(
-        "The lengths seem to be too {long} by {}: {}. See where the bar's scale begins and correct the lengths, or write kind = \"wire\", \
-         which estimates what they have too much, and calibrate again.",
+        "The lengths are likely too {long} by {}. {} Check where the scale of the bar begins, correct the lengths and calibrate again. Or \
+         write `kind = \"wire\"`, which estimates this offset.",
         short(by_m.abs(), SiUnit::METRE),
         better_than(instead_of)
     )
@@ -275,7 +267,7 @@ fn lengths_off(LengthsOff { by_m, instead_of }: &LengthsOff) -> String {
 
 fn better_than(instead_of: &[String]) -> String {
     match instead_of {
-        [] => "that explains these data better".to_owned(),
-        some => format!("that explains these data better than {}", some.join(", ")),
+        [] => "This explains the data better.".to_owned(),
+        some => format!("This explains the data better than {}.", some.join(", ")),
     }
 }

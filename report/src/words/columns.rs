@@ -51,7 +51,7 @@ pub(super) fn steps(misread: &Misread) -> Vec<Step> {
                 .map(|line| line.text.as_str())
                 .collect();
             if !lines.is_empty() {
-                text.push_str(&format!("Write under [{table}]: {}. ", lines.join(", ")));
+                text.push_str(&format!("Write under [{table}]: `{}`. ", lines.join("`, `")));
             }
         }
         if suspect.lines.is_empty() {
@@ -79,10 +79,10 @@ fn value(value: &Implausible) -> String {
             format!("`{name}` is {}. At most {} is plausible.", short(*value, *unit), short(*limit, *unit))
         }
         Implausible::Residual { rms, size: _, unit } if *unit == SiUnit::RAD => {
-            format!("The residual is {}, which is no small error of a direction.", short(*rms, *unit))
+            format!("The residual is {}, too large for a small error.", short(*rms, *unit))
         }
         Implausible::Residual { rms, size, unit } => format!(
-            "The residual is {}, {:.0} % of the size of what was measured.",
+            "The residual is {}, {:.0} % of the measured size.",
             short(*rms, *unit),
             100.0 * rms / size
         ),
@@ -109,7 +109,7 @@ fn sentence(reading: &Reading) -> String {
             format!("{} in {is}{not}.", are(columns))
         }
         Reading::Counts { column, per_turn } => {
-            format!("Column `{column}` is in counts of its encoder, {per_turn} a turn.")
+            format!("Column `{column}` is in counts of its encoder, {per_turn} per turn.")
         }
         Reading::Packed { columns, notation } => {
             format!("{} in degrees, minutes and seconds ({notation}), not in decimal degrees.", are(columns))
@@ -119,22 +119,22 @@ fn sentence(reading: &Reading) -> String {
             format!("Column `{column}` is the angle from the zenith, not from the horizon.")
         }
         Reading::Turned { column, by_deg } => {
-            format!("Column `{column}` counts from elsewhere: the joint reads {by_deg}° more.")
+            format!("Column `{column}` has another zero. The joint reads {by_deg}° more.")
         }
         Reading::FromRow { reading, row, before } => {
             let which = if *before { "before" } else { "from" };
             let on = if *before { "" } else { " on" };
-            format!("{} Only the rows {which} row {row}{on} are so.", sentence(reading))
+            format!("{} This applies only to the rows {which} row {row}{on}.", sentence(reading))
         }
         Reading::Exchanged { columns: [one, other] } => {
             format!("The columns `{one}` and `{other}` are exchanged.")
         }
         Reading::Shifted { columns, by } => {
             let what = if columns.len() == 1 { "Column" } else { "Columns" };
-            let stand = if columns.len() == 1 { "is" } else { "are" };
-            // Where a row needs the reading of the row before it, readings stand one row too early.
+            let are = if columns.len() == 1 { "is" } else { "are" };
+            // Where a row needs the reading of the row before it, readings are one row too early.
             let row = if *by > 0 { "one row too early" } else { "one row too late" };
-            format!("{what} {} {stand} {row} beside the observations.", listed(columns))
+            format!("{what} {} {are} {row} compared with the observations.", listed(columns))
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The contest in words: why a suspected cause is, or is not, told.
+//! The contest in words: why a suspected cause is, or is not, reported.
 
 use super::numbers;
 use calibration::diagnose::{Diagnosis, Hypothesis};
@@ -17,17 +17,20 @@ pub fn called<'a>(diagnosis: &'a Diagnosis, text: &str) -> Vec<&'a Hypothesis> {
     diagnosis.contest.iter().filter(holds).collect()
 }
 
-/// Why a hypothesis is, or is not, told, in sentences.
+/// Why a hypothesis is, or is not, reported, in sentences.
 #[must_use]
 pub fn why(own: &Hypothesis, diagnosis: &Diagnosis) -> String {
     let (name, price) = (&own.name, nats(own.price));
     let size = |value: f64| numbers::short(value, diagnosis.unit);
     if let (Some(leader), Some(behind)) = (&own.instead_of, own.behind) {
         return if behind <= NONE {
-            format!("{name}: these data cannot tell it from {leader}. Its share is {}.", percent(own.share))
+            format!(
+                "{name}: these data cannot separate this from {leader}. Its share is {}.",
+                percent(own.share)
+            )
         } else {
             format!(
-                "{name}: {} behind {leader}, which explains the same. Its share is {}.",
+                "{name}: {} behind {leader}, which explains the same error. Its share is {}.",
                 nats(behind),
                 percent(own.share)
             )
@@ -35,20 +38,24 @@ pub fn why(own: &Hypothesis, diagnosis: &Diagnosis) -> String {
     }
     if own.told {
         let gain = own.gain.map_or_else(String::new, |gain| {
-            format!(" It gains {} and costs {price}: so many others could stand in its place.", nats(gain))
+            format!(" It gains {} and costs {price}, the price of choosing among its rivals.", nats(gain))
         });
         let share =
             if own.share > 0.0 { format!(" Its share is {}.", percent(own.share)) } else { String::new() };
-        return format!("{name}: told.{gain}{share}");
+        return format!("{name}: reported.{gain}{share}");
     }
-    let left =
-        own.left.as_ref().map_or_else(String::new, |left| format!(" It was in, and left again: {left}."));
+    let left = own
+        .left
+        .as_ref()
+        .map_or_else(String::new, |left| format!(" It was accepted first, then removed ({left})."));
     match own.needs {
         None => {
-            format!("{name}: what is told takes up all that it does. These data say nothing of it.{left}")
+            format!(
+                "{name}: the reported effects can imitate this completely. These data cannot show it.{left}"
+            )
         }
         Some(needs) => format!(
-            "{name}: it would need {} to be told, and shows {} beside what is told.{left}",
+            "{name}: it shows {1} beside the reported effects, and would need {0} to be reported.{left}",
             size(needs),
             size(own.shows)
         ),
@@ -56,12 +63,12 @@ pub fn why(own: &Hypothesis, diagnosis: &Diagnosis) -> String {
 }
 
 /// What the figures of a contest mean.
-pub const MEANING: &str = "Evidence is counted in nats: one is worth odds of 2.7 to 1, three are worth 20 to 1. \
-                           Sizes are root mean squares over these data.";
+pub const MEANING: &str = "Evidence is counted in nats. One nat means odds of 2.7 to 1, three nats 20 to 1. Sizes are RMS \
+                           over these data.";
 
 /// Why no contest was held.
-pub const NONE_HELD: &str = "No contest was held. It needs one kind of observation of known objects, exact readings, and at most 4,000 \
-                             measured values.";
+pub const NONE_HELD: &str = "No contest was held. A contest needs one kind of observation of known objects, exact readings, and at most \
+                             4,000 measured values.";
 
 /// `2.1 nats`
 fn nats(value: f64) -> String {

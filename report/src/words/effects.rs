@@ -10,21 +10,28 @@ use observe::SiUnit;
 /// Errors that are named for one effect.
 const NAMED: usize = 3;
 
-/// What an effect does, in one sentence: `The body middle is up to 10.1″ off about x, once per turn of beta.`
+/// What an effect does: `The body middle is rotated by up to 10.1″ about x, once per turn of beta.`
 #[must_use]
 pub fn headline(effect: &EffectFound) -> String {
     let amplitude = numbers::short(effect.amplitude, effect.amplitude_unit);
-    let what = sentence_case(&body_in_words(&effect.body));
+    let body = body_in_words(&effect.body);
     let form = form(&effect.form, &effect.driver);
     let turns = effect.dof.starts_with('R');
+    let does = if turns { "is rotated" } else { "is displaced" };
+    let axis = axis(&effect.dof);
     if turns == (effect.amplitude_unit == SiUnit::RAD) {
-        return format!("{what} is up to {amplitude} off {}, {form}.", axis(&effect.dof));
+        return format!("{} {does} by up to {amplitude} {axis}, {form}.", sentence_case(&body));
     }
-    // A turn that is told by what it moves, or a shift by what it turns.
-    format!("{what} is off {}, {form}: up to {amplitude} of {}.", axis(&effect.dof), effect.amplitude_of)
+    // A turn that is measured by what it moves, or a shift by what it turns.
+    let moves = if turns { "moves" } else { "turns" };
+    format!(
+        "{} {does} {axis}, {form}. This {moves} the measured {} by up to {amplitude}.",
+        sentence_case(&body),
+        effect.amplitude_of
+    )
 }
 
-/// `the body middle`; a name of the instrument's own stands as it is.
+/// `the body middle`; a name of the instrument's own stays as it is.
 fn body_in_words(body: &str) -> String {
     format!("the body {}", body.replace('_', " "))
 }
@@ -37,7 +44,12 @@ fn axis(dof: &str) -> String {
     format!("{} {}", if turns { "about" } else { "along" }, axes.join(" and "))
 }
 
-/// Where an effect sits: `in body middle, after the turn of beta: a rotation about x`.
+/// `turns about x`, `shifts along z`.
+pub(super) fn moves(dof: &str) -> String {
+    format!("{} {}", if dof.starts_with('R') { "turns" } else { "shifts" }, axis(dof))
+}
+
+/// Where an effect sits: `a rotation about x in the body middle, after its joint beta`.
 #[must_use]
 pub fn place(effect: &EffectFound, diagnosis: &Diagnosis) -> String {
     let joints: Vec<&str> = diagnosis
@@ -50,17 +62,22 @@ pub fn place(effect: &EffectFound, diagnosis: &Diagnosis) -> String {
         .collect();
     let side = match (joints.as_slice(), effect.side) {
         ([], _) => String::new(),
-        (joints, Side::Before) => format!(", before {} moves it", joints.join(" and ")),
-        (joints, Side::After) => format!(", behind {}", joints.join(" and ")),
+        (joints, Side::Before) => format!(", before its joint {}", joints.join(" and ")),
+        (joints, Side::After) => format!(", after its joint {}", joints.join(" and ")),
     };
-    let kind = if effect.dof.contains('R') { "rotation" } else { "translation" };
-    format!("in body {}{side}: a {kind} {}", effect.body, axis(&effect.dof))
+    format!("a {} in the body {}{side}", motion(&effect.dof), effect.body)
+}
+
+/// `rotation about x`, `translation along z`.
+#[must_use]
+pub fn motion(dof: &str) -> String {
+    format!("{} {}", if dof.contains('R') { "rotation" } else { "translation" }, axis(dof))
 }
 
 /// What happens by chance less often than this hardly does.
 pub(super) const CHANCE: f64 = 0.011;
 
-/// How sure it is: `very unlikely to be chance (p ≤ 0.001); found again in 10 of 10 repeats`.
+/// How sure it is: `very unlikely to be chance (p ≤ 0.001), found in 10 of 10 repeats`.
 #[must_use]
 pub fn chance_of(effect: &EffectFound, diagnosis: &Diagnosis) -> String {
     let words = if effect.p_value < 0.0015 {
@@ -80,13 +97,13 @@ pub fn chance_of(effect: &EffectFound, diagnosis: &Diagnosis) -> String {
                 (true, true) => format!("only {times}"),
                 (true, false) => times.to_string(),
             };
-            format!("{sure}; found again in {times} of {folds} repeats")
+            format!("{sure}, found in {times} of {folds} repeats")
         }
         _ => sure,
     }
 }
 
-/// How sure effects are, of which the first is told first: that one and the least sure of all. None where there is none.
+/// How sure effects are, of which the first is named first: that one and the least sure of all. None where there is none.
 #[must_use]
 pub fn chance_of_all(effects: &[&EffectFound], diagnosis: &Diagnosis) -> Option<String> {
     let [first, others @ ..] = effects else { return None };
@@ -101,7 +118,7 @@ pub fn chance_of_all(effects: &[&EffectFound], diagnosis: &Diagnosis) -> Option<
         true => format!("each {}", predicate(&surest)),
         false => {
             let [surest, told] = [surest, told].map(|chance| predicate(&chance));
-            format!("the first {surest}. The least sure, {}, {told}", least.names[0])
+            format!("the largest effect {surest}. The least sure, {}, {told}", least.names[0])
         }
     })
 }
@@ -111,7 +128,7 @@ fn predicate(chance: &str) -> String {
     if chance.starts_with("could") { chance.to_owned() } else { format!("is {chance}") }
 }
 
-/// What speaks for an effect, and what cannot be told from it, a line each.
+/// The evidence for an effect, and what cannot be separated from it, a line each.
 #[must_use]
 pub fn evidence(effect: &EffectFound, diagnosis: &Diagnosis) -> Vec<String> {
     let mut lines = Vec::new();
@@ -127,19 +144,22 @@ pub fn evidence(effect: &EffectFound, diagnosis: &Diagnosis) -> Vec<String> {
         lines.push(format!("{name} = {told}"));
     }
     lines.push(format!(
-        "at most {} of {}, {} on average",
-        numbers::told(effect.amplitude, effect.amplitude_unit),
+        "moves {} by at most {}, {} RMS",
         effect.amplitude_of,
+        numbers::told(effect.amplitude, effect.amplitude_unit),
         numbers::told(effect.amplitude_rms, effect.amplitude_unit)
     ));
     lines.push(chance_of(effect, diagnosis));
     lines.extend(bias(effect, diagnosis));
     if !effect.confounded_with.is_empty() {
-        lines.push(format!("these data cannot tell it from: {}", effect.confounded_with.join("; ")));
+        lines.push(format!(
+            "these data cannot separate this effect from {}",
+            effect.confounded_with.join(", or ")
+        ));
     }
     if !effect.competing_with.is_empty() {
         let others: Vec<String> = effect.competing_with.iter().map(|names| names.join(" or ")).collect();
-        lines.push(format!("explains these data about as well: {}", others.join("; ")));
+        lines.push(format!("fits these data nearly equally: {}", others.join(", or ")));
     }
     lines
 }
@@ -155,7 +175,7 @@ pub fn bias(effect: &EffectFound, diagnosis: &Diagnosis) -> Option<String> {
         })
         .collect();
     (!added.is_empty())
-        .then(|| format!("its uncertainty adds this much to other errors: {}", added.join(", ")))
+        .then(|| format!("the uncertainty of this effect adds to other errors: {}", added.join(", ")))
 }
 
 /// The errors that move most, largest first.

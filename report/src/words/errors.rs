@@ -1,4 +1,4 @@
-//! Declared errors in words: one table, one unit for each kind of quantity; natural order of names.
+//! Declared errors in words: one table, one unit for each kind of quantity, natural order of names.
 
 use super::numbers::{self, Reading};
 use calibration::diagnose::{AtZero, BesideFunction, Diagnosis, ErrorFound, Estimable};
@@ -77,8 +77,7 @@ fn notes(diagnosis: &Diagnosis) -> Vec<String> {
     let combinations = diagnosis.estimable.iter().filter_map(|estimable| estimable.moves_by_cause);
     if errors.chain(combinations).next().is_some() {
         notes.push(
-            "by cause: where the value would lie with the other causes that these data fit; the ± is for the one that was \
-             added to the declaration"
+            "by cause: range over the candidate causes. The ± assumes the cause written to the amended declaration"
                 .to_owned(),
         );
     }
@@ -90,32 +89,32 @@ fn notes(diagnosis: &Diagnosis) -> Vec<String> {
             .iter()
             .any(|estimable| estimable.combination.iter().all(|part| set.contains(&part.error)));
         if !told {
-            notes.push(format!("these data do not tell apart {}", sorted(set).join(", ")));
+            notes.push(format!("these data cannot separate {}", sorted(set).join(", ")));
         }
     }
     notes.extend(not_shown(diagnosis));
     notes
 }
 
-/// `index is the value at air = 0; these data have 18.2 to 24.1`
+/// `index is the value at air = 0. These data have 18.2 to 24.1`
 fn at_zero(AtZero { errors, input, from, to, unit }: &AtZero) -> String {
     // A temperature may be in degrees Celsius, which only differences are in kelvin of.
     let unit = if *unit == SiUnit::KELVIN { SiUnit::ONE } else { *unit };
     let own = numbers::reading(unit, from.abs().max(to.abs()));
     let are = if errors.len() == 1 { "is the value" } else { "are the values" };
     format!(
-        "{} {are} at {input} = 0; these data have {} to {}",
+        "{} {are} at {input} = 0. These data have {} to {}",
         sorted(errors).join(", "),
         numbers::told_in(*from, &own),
         numbers::told_in(*to, &own)
     )
 }
 
-/// `range_zero is the value where the function that was found (powers, of range in beam along y) is zero; …`
+/// `range_zero is the value where the function found (powers, of range in beam along y) is zero. …`
 fn beside_function(BesideFunction { errors, function }: &BesideFunction) -> String {
     let are = if errors.len() == 1 { "is the value" } else { "are the values" };
     format!(
-        "{} {are} where the function that was found ({function}) is zero: with another function, zero elsewhere, it is another value",
+        "{} {are} where the function found ({function}) is zero. A function with another zero gives another value",
         sorted(errors).join(", ")
     )
 }

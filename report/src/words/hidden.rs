@@ -1,4 +1,4 @@
-//! What the data hide, in words: effects that they could not have shown, and the declared errors that would pass for them.
+//! What the data hide, in words: effects that they could not have shown, and the declared errors that imitate them.
 
 use super::effects::largest;
 use super::numbers;
@@ -13,18 +13,18 @@ pub fn size(effect: &NotShown) -> String {
     )
 }
 
-/// What becomes of an effect that does not show: `invisible here: it would be counted as elevation_index`.
+/// What becomes of an effect that does not show: `invisible, since elevation_index imitates it completely`.
 #[must_use]
 pub fn fate(effect: &NotShown) -> String {
     if effect.absorbed == 0.0 {
-        return "moves nothing that was observed".to_owned();
+        return "moves nothing that was measured".to_owned();
     }
     let names: Vec<&str> = largest(&effect.mistaken_for).into_iter().map(|(name, _)| name).collect();
     let places = effect.by_places.then_some("the places of objects and stations");
     let taken = names.into_iter().chain(places).collect::<Vec<_>>().join(", ");
     let taken = if taken.is_empty() { "declared errors" } else { &taken };
     match effect.smallest {
-        None => format!("invisible here: it would be counted as {taken}"),
-        Some(_) => format!("{:.0} % of it would be counted as {taken}", 100.0 * effect.absorbed),
+        None => format!("invisible, since other values of {taken} look the same"),
+        Some(_) => format!("other values of {taken} look {:.0} % the same", 100.0 * effect.absorbed),
     }
 }

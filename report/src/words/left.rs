@@ -1,5 +1,6 @@
 //! What is left after the effects, in words.
 
+use super::effects::moves;
 use super::numbers;
 use calibration::diagnose::{Diagnosis, Form};
 use observe::SiUnit;
@@ -9,7 +10,9 @@ use observe::SiUnit;
 pub fn remaining(diagnosis: &Diagnosis) -> Vec<String> {
     let Some(remaining) = &diagnosis.remaining else { return Vec::new() };
     if remaining.looked.is_empty() {
-        return vec!["too few rows, or groups of rows, to tell whether what is left is noise".to_owned()];
+        return vec![
+            "there are too few rows, or groups of rows, to judge whether the residual is noise".to_owned(),
+        ];
     }
     let chance = numbers::chance(remaining.p_value);
     let rows = diagnosis.observations.rows;
@@ -20,22 +23,21 @@ pub fn remaining(diagnosis: &Diagnosis) -> Vec<String> {
     };
     if let Some(place) = &remaining.place {
         return vec![format!(
-            "what is left sits in body {}, {}, and follows {}: a {} fits better than the catalogue ({chance} for what the \
-             catalogue leaves{sampled})",
+            "the body {} still {} with {}. A {} fits better than the catalogue, whose residual has a pattern ({chance}{sampled})",
             place.body,
-            place.dof,
+            moves(&place.dof),
             place.driver,
             function_form(&place.form)
         )];
     }
     let structure = diagnosis.search.is_some_and(|search| remaining.p_value <= search.false_alarm);
     if !structure {
-        return vec![format!("what is left looks like noise ({chance}{sampled})")];
+        return vec![format!("the residual looks like noise ({chance}{sampled})")];
     }
     let most = remaining.looked.iter().min_by(|a, b| a.p_value.total_cmp(&b.p_value));
-    let most = most.map_or_else(String::new, |most| format!(", most of all: {}", most.at));
+    let most = most.map_or_else(String::new, |most| format!(". It is clearest in {}", most.at));
     vec![format!(
-        "what is left has structure that no function at one place explains ({chance}{sampled}){most}"
+        "the residual has a pattern that no function at one place explains ({chance}{sampled}){most}"
     )]
 }
 

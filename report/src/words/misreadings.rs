@@ -10,21 +10,22 @@ pub(super) fn misread(otherwise: &Otherwise) -> String {
     let [before, after] = [before, after].map(|rms| short(*rms, *unit));
     let mistakes = all(mistakes);
     format!(
-        "Likely {mistakes}: read that way the residual goes from {before} to {after}. Change the study or the file, and calibrate again."
+        "Likely {mistakes}. Read that way, the residual falls from {before} to {after}. Change the study or the file, and calibrate again."
     )
 }
 
-/// That stations come out elsewhere, and what is likely wrong.
+/// That stations are fitted away from their rough places, and what is likely wrong.
 pub(super) fn strayed(strayed: &Strayed) -> String {
     let Strayed { station, away_m, turn_rad, mistakes } = strayed;
     let (away, turn) = (short(*away_m, SiUnit::METRE), turn_rad.to_degrees());
     let off = format!(
-        "The stations come out elsewhere than the study roughly puts them beside each other, `{station}` by {away} and {turn:.0}°"
+        "The fitted stations are not where the study roughly places them, `{station}` by {away} and {turn:.0}°"
     );
     match mistakes.len() {
-        0 => format!("{off}: look at their names, x and y, headings, and which way angles run."),
+        0 => format!("{off}. Check their names, x and y, headings, and which way angles run."),
         _ => format!(
-            "{off}. Likely {}: read that way they come out there. Change the study or the file, and calibrate again.",
+            "{off}. Likely {}. Read that way, the stations are where the study places them. Change the study or the file, and calibrate \
+             again.",
             all(mistakes)
         ),
     }
@@ -35,7 +36,7 @@ fn all(mistakes: &[Misreading]) -> String {
     let told: Vec<String> = mistakes.iter().map(mistake).collect();
     let others = match told.len() {
         0 | 1 => "",
-        _ => " (which of these, the data do not say)",
+        _ => " (the data cannot choose)",
     };
     format!("{}{others}", told.join(", or "))
 }
@@ -52,14 +53,14 @@ fn mistake(mistake: &Misreading) -> String {
             "x and y are northing and easting and the headings bearings (exchange x and y, and write 90 deg − heading)".to_owned()
         }
         Misreading::Reversed { joint } => format!("`{joint}` runs the other way"),
-        Misreading::FromZenith { joint } => format!("`{joint}` counts from the zenith (it is 90 deg − what was read)"),
+        Misreading::FromZenith { joint } => format!("`{joint}` counts from the zenith (write 90 deg − reading)"),
         Misreading::Turned { joint, by_deg } => {
             let sign = if *by_deg < 0 { "−" } else { "+" };
-            format!("`{joint}` counts from elsewhere (it is what was read {sign} {} deg)", by_deg.abs())
+            format!("`{joint}` has another zero (add {sign}{} deg to the readings)", by_deg.abs())
         }
         Misreading::Exchanged { joints: [one, other] } => format!("the columns of `{one}` and `{other}` are exchanged"),
         Misreading::Unit { readings, unit } => in_unit(readings, "", unit),
-        Misreading::Doubled { of } => format!("the {} are doubled: diameters? (write half of them)", lengths(*of)),
+        Misreading::Doubled { of } => format!("the {} are doubled, perhaps diameters (write half of them)", lengths(*of)),
         Misreading::LengthsUnit { of, unit } => format!("the {} are {unit}", lengths(*of)),
         Misreading::UnitAt { station, readings, unit } => in_unit(readings, &format!(" of station `{station}`"), unit),
     }

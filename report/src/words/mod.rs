@@ -1,12 +1,14 @@
 //! The report in words: the one place where a [`Diagnosis`](calibration::diagnose::Diagnosis) becomes English.
 //!
-//! First the five [`Answers`] that a person acts on, then cautions, evidence, values, noise, what is left and what
+//! First the five [`Answers`] that a person acts on, then cautions, evidence, values, noise, what remains and what
 //! could not have shown. How words are set in type is for whoever prints them.
 
 mod answers;
+mod better;
 mod causes;
 mod cautions;
 mod columns;
+mod components;
 pub mod contest;
 mod effects;
 mod errors;
@@ -26,7 +28,8 @@ mod steps;
 pub use answers::{Answers, Tone, answers};
 pub use causes::{cause, form, sentence_case};
 pub use cautions::caution;
-pub use effects::{bias, chance_of, evidence, headline, place};
+pub use components::{component_in_words, side};
+pub use effects::{bias, chance_of, evidence, headline, motion, place};
 pub use errors::{EstimateLine, Estimates, estimates, not_shown as errors_not_shown};
 pub use hidden::{fate, size};
 pub use left::{function_form, remaining};

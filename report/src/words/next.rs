@@ -1,11 +1,11 @@
-//! Where to measure next, as tables: poses that determine the errors best, and poses that tell effects apart.
+//! Where to measure next, as tables: poses that determine the errors best, and poses that separate effects.
 
 use super::numbers::{self, Reading};
 use calibration::design::{Criterion, Proposal, Separation};
 use calibration::diagnose::Diagnosis;
 use observe::SiUnit;
 
-/// Errors whose uncertainty is told for proposed poses, those that gain most.
+/// Errors whose uncertainty is listed for proposed poses, those that gain most.
 const ERRORS: usize = 5;
 
 /// Poses with what they are good for.
@@ -15,7 +15,7 @@ pub struct PoseTable {
     pub title: String,
     /// Each joint with its unit, and how often to measure.
     pub joints: Vec<String>,
-    /// One pose a row, in those units; poses that are proposed more than once stand once, with how often.
+    /// One pose a row, in those units; poses that are proposed more than once appear once, with how often.
     pub poses: Vec<Vec<String>>,
     /// What else to know, a sentence each.
     pub notes: Vec<String>,
@@ -61,20 +61,24 @@ pub(super) fn gained(mut gains: Vec<Gain>) -> Vec<String> {
     gains.sort_by(|a, b| (a.then / a.now).total_cmp(&(b.then / b.now)));
     let told = gains.into_iter().take(ERRORS).map(|Gain { what, unit, now, then }| {
         let [now, then] = [now, then].map(|si| numbers::told(si, unit));
-        format!("the standard uncertainty of {what} would go from {now} to {then}")
+        format!("the standard uncertainty of {what} would fall from {now} to {then}")
     });
     told.collect()
 }
 
 fn of_separation(separation: &Separation, unit: impl Fn(&str) -> SiUnit) -> PoseTable {
     let apart: Vec<&str> = separation.apart.iter().map(|told| told.name.as_str()).collect();
-    let title = format!("to tell {} from what explains these data as well", separation.effect);
+    let title = format!("to separate {} from the other candidate causes", separation.effect);
     let mut notes = Vec::new();
     if !apart.is_empty() {
-        notes.push(format!("these poses tell it from {}", apart.join("; ")));
+        notes.push(format!("these poses separate {} from {}", separation.effect, apart.join(", and from ")));
     }
     if !separation.never.is_empty() {
-        notes.push(format!("no pose within the ranges tells it from {}", separation.never.join("; ")));
+        notes.push(format!(
+            "no pose within the ranges separates {} from {}",
+            separation.effect,
+            separation.never.join(", or from ")
+        ));
     }
     let (joints, poses) = in_reading_units(&separation.joints, &separation.poses, unit);
     PoseTable { title, joints, poses, notes }
@@ -86,7 +90,7 @@ fn in_reading_units(
     poses: &[Vec<f64>],
     unit: impl Fn(&str) -> SiUnit,
 ) -> (Vec<String>, Vec<Vec<String>>) {
-    // An angle of a pose is told in degrees, however small.
+    // An angle of a pose is printed in degrees, however small.
     let units: Vec<Reading> = joints.iter().map(|name| numbers::reading(unit(name), 1.0)).collect();
     let mut names: Vec<String> =
         joints.iter().zip(&units).map(|(name, unit)| numbers::name_with_unit(name, &unit.name)).collect();

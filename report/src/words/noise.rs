@@ -1,5 +1,6 @@
 //! The noise in words.
 
+use super::components::side;
 use super::numbers::{times, told};
 use calibration::diagnose::{Diagnosis, SerialFound, VarianceFound};
 use observe::NoiseOf;
@@ -13,8 +14,8 @@ pub fn noise(diagnosis: &Diagnosis) -> Vec<String> {
         let each = series.components.iter().zip(&series.sigma);
         let each: Vec<String> = each
             .map(|(name, &sigma)| match series.of_stated {
-                true => format!("{} what the data state {name}", times(sigma)),
-                false => format!("{} {name}", told(sigma, series.unit)),
+                true => format!("{} the stated value {}", times(sigma), side(name)),
+                false => format!("{} {}", told(sigma, series.unit), side(name)),
             })
             .collect();
         said.push(format!("{}: standard deviation {}", series.source, each.join(", ")));
@@ -22,14 +23,13 @@ pub fn noise(diagnosis: &Diagnosis) -> Vec<String> {
     if let Some(stated) = noise.stated {
         let stated = told(stated, diagnosis.unit);
         said.push(format!(
-            "the study states {stated}; weights and uncertainties go by what the residuals show, since something may be \
-             missing"
+            "the study states {stated}. Weights and uncertainties use the scatter of the residuals, since an effect may be missing"
         ));
     }
     if let Some(factor) = noise.readings_over_stated {
         let each = noise.readings.iter().map(|own| format!("{} {}", own.name, told(own.sigma, own.unit)));
         said.push(format!(
-            "readings are {} as uncertain as the study states ({}): the standard deviations above are what the rows have beside it",
+            "readings are {} as uncertain as the study states ({}). The standard deviations above come in addition",
             times(factor),
             each.collect::<Vec<_>>().join(", ")
         ));
@@ -39,18 +39,18 @@ pub fn noise(diagnosis: &Diagnosis) -> Vec<String> {
         let of = match own[0].noise_of {
             NoiseOf::Angles => "of angles",
             NoiseOf::Lengths => "of lengths",
-            NoiseOf::Across => "across the beam",
+            NoiseOf::Across => "sideways to the beam",
         };
         said.push(format!(
-            "the noise {of} depends on the joints: the logarithm of its variance is {}",
+            "the noise {of} depends on the joints. The logarithm of its variance is {}",
             terms.join(" ")
         ));
     }
     match noise.serial {
         Some(serial) => said.push(remembered(serial, noise.undeclared_order)),
         None if noise.undeclared_order => said.push(
-            "rows hang together in the order of the file, by a memory of the noise or by something that the declaration \
-             lacks: the uncertainties allow for it"
+            "consecutive rows share errors in the order of the file (drift, or an effect that the model does not contain). The \
+             uncertainties include this"
                 .to_owned(),
         ),
         None => {}
@@ -58,12 +58,13 @@ pub fn noise(diagnosis: &Diagnosis) -> Vec<String> {
     said
 }
 
-/// What rows remember of the row before.
+/// What consecutive rows share.
 fn remembered(serial: SerialFound, undeclared_order: bool) -> String {
-    let order = if undeclared_order { ", in the order of the file, which nobody declared" } else { "" };
-    let axes = if serial.in_space { ", along axes that stand still in space" } else { "" };
+    let order =
+        if undeclared_order { ", in the order of the file, which the study does not name" } else { "" };
+    let axes = if serial.in_space { ", in directions fixed in space" } else { "" };
     format!(
-        "rows remember the row before{order}{axes}: ARMA(1,1) with {:.3} and {:.3}",
+        "consecutive rows share errors{order}{axes}. Their model is ARMA(1,1) with {:.3} and {:.3}",
         serial.autoregressive, serial.moving_average
     )
 }
@@ -78,16 +79,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn memory_is_told_with_its_order_and_its_axes() {
+    fn memory_is_reported_with_its_order_and_its_axes() {
         let serial = |in_space| SerialFound { autoregressive: 0.9, moving_average: -0.25, in_space };
         assert_eq!(
             remembered(serial(false), false),
-            "rows remember the row before: ARMA(1,1) with 0.900 and -0.250"
+            "consecutive rows share errors. Their model is ARMA(1,1) with 0.900 and -0.250"
         );
         assert_eq!(
             remembered(serial(true), true),
-            "rows remember the row before, in the order of the file, which nobody declared, along axes that stand still in \
-             space: ARMA(1,1) with 0.900 and -0.250"
+            "consecutive rows share errors, in the order of the file, which the study does not name, in directions fixed in \
+             space. Their model is ARMA(1,1) with 0.900 and -0.250"
         );
     }
 }

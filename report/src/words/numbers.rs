@@ -72,7 +72,7 @@ pub fn estimate_in(value: f64, uncertainty: f64, reading: &Reading) -> String {
     with_unit(&format!("{value:.places$} ± {uncertainty:.places$}"), reading)
 }
 
-/// An estimate that hangs on which cause is the true one: how far it would move, down and up, is told as the range of its values.
+/// An estimate that depends on which cause is the true one: how far it would move, down and up, as the range of its values.
 #[must_use]
 pub fn by_cause(value: f64, uncertainty: f64, moves: [f64; 2], unit: SiUnit) -> String {
     let [low, high] = moves.map(|own| value + own);
@@ -95,7 +95,7 @@ pub fn told_in(value: f64, reading: &Reading) -> String {
     with_unit(&digits(value / reading.in_si, 2), reading)
 }
 
-/// A reading's name with its unit, as it stands beside an axis or above a column.
+/// A reading's name with its unit, as it is printed beside an axis or above a column.
 #[must_use]
 pub fn name_with_unit(name: &str, unit: &str) -> String {
     if unit.is_empty() { name.to_owned() } else { format!("{name}, {unit}") }

@@ -14,7 +14,7 @@ const POINTINGS: usize = 12;
 /// What gets smaller by less than this is as it was.
 const GAINS: f64 = 0.995;
 
-/// What is determined only together with others is told with them, unless an addition leaves less than this share of its uncertainty
+/// What is determined only together with others is listed with them, unless an addition leaves less than this share of its uncertainty
 /// and so determines it by itself.
 const BY_ITSELF: f64 = 0.5;
 
@@ -77,8 +77,9 @@ fn table(
     let mut notes = Vec::new();
     let count = all().count();
     if count > POINTINGS {
-        notes
-            .push(format!("{count} pointings in all, about as they stand here; report.json lists every one"));
+        notes.push(format!(
+            "there are {count} pointings in all, much like these. report.json lists every one"
+        ));
     }
     let is_told = |(name, now, then): &&(String, f64, f64)| {
         let together = diagnosis.errors.iter().any(|error| error.name == *name && !error.separable);
@@ -91,11 +92,11 @@ fn table(
         together.map(|(own, &(now, then))| Gain { what: combination(own), unit: own.unit, now, then });
     let gains = gained(errors.chain(together).filter(|gain| gain.then < GAINS * gain.now).collect());
     if gains.is_empty() {
-        notes.push("nothing that is shown becomes surer by it".to_owned());
+        notes.push("no uncertainty becomes smaller".to_owned());
     }
     notes.extend(gains);
     if !proposal.never.is_empty() {
-        notes.push(format!("it shows nothing more of {}", proposal.never.join(", ")));
+        notes.push(format!("these measurements still do not show {}", proposal.never.join(", ")));
     }
     for (remedy, errors) in &proposal.remedies {
         notes.push(format!("{} {}", remedy_would_show(*remedy).to_lowercase(), errors.join(", ")));
@@ -106,7 +107,7 @@ fn table(
 /// What is added, and where.
 pub(super) fn told_places(proposal: &PlaceProposal) -> String {
     let places: Vec<String> = proposal.places.iter().map(|place| told(proposal.adds, place)).collect();
-    places.join("; ")
+    places.join(", and ")
 }
 
 /// `a station at x 1.20 m, y −3.41 m, z 1.60 m, heading 37°`

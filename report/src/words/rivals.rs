@@ -1,8 +1,8 @@
-//! What explains data better than what was found and is no error of the instrument, in words: it stands where causes would.
+//! What explains data better than what was found and is no error of the instrument, in words: it takes the place of causes.
 
 use calibration::diagnose::{Caution, Diagnosis};
 
-/// What is told of it.
+/// What is reported of it.
 pub(super) struct Rival<'a> {
     /// What happened, in a word or two.
     pub badge: &'static str,
@@ -16,29 +16,27 @@ pub(super) struct Rival<'a> {
 
 /// That of a diagnosis, where there is one.
 pub(super) fn rival(diagnosis: &Diagnosis) -> Option<Rival<'_>> {
-    let mut told = diagnosis.cautions.iter().filter_map(|caution| match caution {
+    let mut rivals = diagnosis.cautions.iter().filter_map(|caution| match caution {
         Caution::Moved(own) => Some(Rival {
             badge: "Moved while measuring",
-            happened: "The instrument likely moved while it measured: what was found may be that, and no error of it.",
+            happened: "The instrument likely moved during the measurement. That motion looks like the effects found.",
             step: [
                 "Do not correct with it",
-                "An instrument that moves while it measures looks like errors that it does not have. Let it stand firmly and measure again; \
-                 measure each target in both faces at once.",
+                "Fix the instrument firmly and measure again. Measure each target in both faces, one right after the other.",
             ],
             instead_of: &own.instead_of,
         }),
         Caution::LengthsOff(own) => Some(Rival {
             badge: "Lengths are off",
-            happened: "The lengths are likely told from another zero: what was found may be that, and no error of the instrument.",
+            happened: "The measured lengths likely start at another zero. That offset looks like the effects found.",
             step: [
                 "Do not correct with it yet",
-                "Lengths that are all too long, or too short, look like errors that the instrument does not have. What to do stands in the \
-                 caution.",
+                "First correct the lengths as the caution describes.",
             ],
             instead_of: &own.instead_of,
         }),
         _ => None,
     });
     // The last is that which is mended by a word in the study.
-    told.next_back()
+    rivals.next_back()
 }

@@ -1,6 +1,6 @@
 //! What to do next, step by step.
 
-use super::causes::{cause, sentence_case};
+use super::causes::cause;
 use super::columns::{self, implausible_values, misread};
 use super::effects::CHANCE;
 use super::places::told_places;
@@ -19,8 +19,8 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) 
         Verdict::FitFailed if implausible_values(diagnosis).is_some() => {
             steps.push(step(
                 "Do not correct with it",
-                "Compare units, signs and order of the columns with the file, and the lengths of the declaration with the instrument. Then \
-                 calibrate again."
+                "Compare units, signs and order of the columns with the file. Compare the lengths of the declaration with the instrument. \
+                 Then calibrate again."
                     .to_owned(),
             ));
             return steps;
@@ -28,8 +28,8 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) 
         Verdict::FitFailed if !fits_otherwise(diagnosis) => {
             steps.push(step(
                 "Check units, signs and axes",
-                "A fit that reaches no minimum has mostly been given a column in another unit, a sign or an axis the other \
-                 way round, or starting values far off: compare the study with the file, row by row."
+                "Most often a column is in another unit, or a sign or an axis is reversed. Starting values may also be far from the truth. \
+                 Compare the study with the file, row by row."
                     .to_owned(),
             ));
             return steps;
@@ -37,11 +37,11 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) 
         Verdict::TooFewObservations if !fits_otherwise(diagnosis) => {
             let text = match diagnosis.fit.amended {
                 Ended::TooFewObservations { parameters, of_objects, .. } => format!(
-                    "At least {}{}; or fix errors that are known (`[fit] fix`).",
-                    observations_more(missing(diagnosis, parameters + of_objects + WANTED)),
-                    if of_objects > 0 { ", of objects and from stations that are there" } else { "" }
+                    "At least {}{}. Or fix errors that are known (`[fit] fix`).",
+                    rows_more(missing(diagnosis, parameters + of_objects + WANTED)),
+                    if of_objects > 0 { ", of the same objects and from the same stations" } else { "" }
                 ),
-                _ => "Repeat the observations that the effect rests on.".to_owned(),
+                _ => "Repeat the few rows that show the effect.".to_owned(),
             };
             steps.push(step("Measure more", text));
             return steps;
@@ -54,22 +54,22 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) 
         .any(|caution| matches!(caution, Caution::OutOfPlace { but_for: Some(_), .. }))
     {
         steps.push(step(
-            "Look at the rows that were set aside",
-            "They are far off: labels that are swapped, rows of another object or station, a slip. What was estimated rests on the others."
+            "Check the outliers",
+            "Look for swapped labels, rows of another object or station, and slips. The errors were estimated from the other rows."
                 .to_owned(),
         ));
     }
     if let Some(column) = session_column(diagnosis) {
         steps.push(step(
-            "Say which rows belong together",
-            format!("Write in the study: `group = {column:?}`. Then calibrate again: the errors and their ± change."),
+            "Name the column of sessions",
+            format!("Write in the study: `group = {column:?}`. Then calibrate again. The errors and their ± will change."),
         ));
     }
     if is_misread(diagnosis) {
         steps.push(step(
             "Do not correct with it yet",
-            "The first thing is what the cautions say of the data: a column in another unit, a sign, an axis, a place that is stated \
-             wrongly. Errors that were estimated from that are wrong, and so is what was found beside them."
+            "First check the data as the cautions ask: units, signs, axes and stated places. Until then the estimated errors and the effects \
+             are wrong."
                 .to_owned(),
         ));
     } else if let Some(Rival { step: [title, text], .. }) = rival(diagnosis) {
@@ -77,8 +77,7 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) 
     } else if is_worse(diagnosis) {
         steps.push(step(
             "Do not correct with it",
-            "On data that nobody fitted the effects make it worse. Measure more poses, or allow fewer effects \
-             (`[search] effects`)."
+            "The effects increase the error on held-out data. Measure more poses, or allow fewer effects (`[search] effects`)."
                 .to_owned(),
         ));
     } else if let Some(more) = is_unconfirmed(diagnosis) {
@@ -86,7 +85,7 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) 
     } else if shows_nothing(diagnosis) {
         steps.push(step(
             "There is nothing to correct with",
-            "These data show none of the declared errors: what would show them is what `identify` says of the study.".to_owned(),
+            "These data contain none of the declared errors. Run `trueaxis identify` on the study to see what would show them.".to_owned(),
         ));
     } else {
         steps.push(correct(diagnosis, folder, command));
@@ -95,47 +94,47 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) 
     if let Some(effect) = largest.filter(|_| rival(diagnosis).is_none()) {
         let more = match effect.causes.len() {
             0 | 1 => String::new(),
-            2 => " The other cause that fits has a check of its own.".to_owned(),
-            count => format!(" The other {} causes that fit have checks of their own.", count - 1),
+            2 => " Then check the other cause.".to_owned(),
+            count => format!(" Then check the other {} causes.", count - 1),
         };
         steps.push(step(
-            "To repair, check the likeliest cause first",
-            format!("{}: {}{more}", sentence_case(&cause(&effect.causes[0])), effect.causes[0].check),
+            "To repair, inspect the instrument for the likeliest cause first",
+            format!("Likeliest: {}. {}{more}", cause(&effect.causes[0]), effect.causes[0].check),
         ));
     }
     steps.extend(measure(diagnosis));
     if let Some(offer) = diagnosis.remaining.as_ref().and_then(|left| left.offer.as_ref()) {
         let lines = offer.trim_end().to_owned();
         steps.push(Step {
-            title: "To let the declaration have what is left".to_owned(),
-            text: "Write this into the study, and calibrate again:".to_owned(),
+            title: "To add the remaining error to the model".to_owned(),
+            text: "Write these lines into the study, then calibrate again:".to_owned(),
             command: Some(lines),
         });
     }
     if diagnosis.verdict == Verdict::NoiseExceedsStated {
         steps.push(step(
-            "Look at the noise",
-            "State a larger noise if it was stated too small; else record what else may move the instrument (temperature, \
-             time, direction of motion, load) and name it under `[search] inputs`."
+            "Check the stated noise",
+            "State a larger noise if yours was too small. Otherwise record temperature, time, direction of motion or load, and name \
+             these columns under `[search] inputs`."
                 .to_owned(),
         ));
     }
     steps
 }
 
-/// Observations that are missing for so many numbers.
+/// Rows that are missing to determine some numbers.
 fn missing(diagnosis: &Diagnosis, numbers: usize) -> usize {
     let components = diagnosis.instrument.observed.first().map_or(1, |seen| seen.components.len().max(1));
     let there = diagnosis.observations.used * components;
     numbers.saturating_sub(there).div_ceil(components).max(1)
 }
 
-fn observations_more(count: usize) -> String {
-    let observations = if count == 1 { "observation" } else { "observations" };
-    format!("{count} {observations} more, at poses spread over the joints")
+fn rows_more(count: usize) -> String {
+    let rows = if count == 1 { "row" } else { "rows" };
+    format!("{count} more {rows}, at poses spread over the joints")
 }
 
-/// A column that the study does not name, whose values say which rows belong together.
+/// A column that the study does not name, whose values show which rows belong together.
 fn session_column(diagnosis: &Diagnosis) -> Option<&str> {
     diagnosis.cautions.iter().find_map(|caution| match caution {
         Caution::FollowsOrder { column, .. } => column.as_deref(),
@@ -143,20 +142,22 @@ fn session_column(diagnosis: &Diagnosis) -> Option<&str> {
     })
 }
 
-/// What to measure where nothing confirms what was estimated: hardly any number is left over, or data that nobody fitted are foretold
+/// What to measure where nothing confirms what was estimated: hardly any number is left to check with, or held-out data are predicted
 /// badly.
 pub(super) fn is_unconfirmed(diagnosis: &Diagnosis) -> Option<String> {
     diagnosis.cautions.iter().find_map(|caution| match caution {
-        Caution::HardlyMoreNumbers { numbers, unknowns } => Some(format!(
-            "{numbers} numbers for {unknowns} unknowns leave too few to judge the noise by: add at least {}.{}",
-            observations_more(missing(diagnosis, unknowns + WANTED.max(*unknowns))),
-            if diagnosis.fit.rank[0] < diagnosis.fit.rank[1] { " Errors that they show beside these take more." } else { "" }
+        Caution::HardlyMoreNumbers { unknowns, .. } => Some(format!(
+            "Add at least {}.{}",
+            rows_more(missing(diagnosis, unknowns + WANTED.max(*unknowns))),
+            if diagnosis.fit.rank[0] < diagnosis.fit.rank[1] {
+                " The errors that these data do not show need further rows."
+            } else {
+                ""
+            }
         )),
-        Caution::ForetoldBadly { .. } => Some(
-            "Data that nobody fitted are foretold badly, since single rows decide what comes out: add observations at poses spread over \
-             the joints, until each error is seen from several."
-                .to_owned(),
-        ),
+        Caution::ForetoldBadly { .. } => {
+            Some("Add rows at poses spread over the joints, until several rows show each error.".to_owned())
+        }
         _ => None,
     })
 }
@@ -171,23 +172,23 @@ fn correct(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) -> Step {
     let are_unknown = diagnosis.observations.unknown_objects.is_some();
     let text = match (diagnosis.effects.is_empty(), competing, several) {
         (false, true, _) if are_unknown => {
-            "Each cause that fits explains what was observed about as well. With another one place and size of everything may differ: \
-             nobody knows those of the objects."
+            "Each possible cause explains the observations nearly equally. With another cause, place and size of everything may differ, \
+             because the objects were not surveyed."
         }
         (false, false, true) if are_unknown => {
-            "Each cause explains what was observed the same. With another one place and size of everything may differ: nobody knows those \
-             of the objects."
+            "Each possible cause explains the observations equally. With another cause, place and size of everything may differ, because \
+             the objects were not surveyed."
         }
-        (true, ..) => "The declared errors were estimated; nothing was added.",
-        (false, true, _) => "Where these data lie, the causes that fit make about the same correction.",
-        (false, false, true) => "The correction is the same whichever cause it is, where these data lie.",
-        (false, false, false) => "The effect is in the amended declaration.",
+        (true, ..) => "The declared errors were estimated. Nothing was added.",
+        (false, true, _) => "Within the measured range, all these causes give nearly the same correction.",
+        (false, false, true) => "Within the measured range, all these causes give the same correction.",
+        (false, false, false) => "The amended declaration contains the effect.",
     };
-    let (title, text) = match is_hardly_found_again(diagnosis) {
+    let (title, text) = match is_hardly_repeated(diagnosis) {
         true => (
             "Measure more before you correct with it",
-            "What was found could be chance, and searches without a part of the rows mostly do not find it again. With twice the rows it \
-             will stand out or be gone. If you correct all the same:",
+            "The effect could be chance, and fewer than half of the repeated searches found it. Twice as many rows will decide. To correct \
+             anyway:",
         ),
         false => ("Correct with it now", text),
     };
@@ -209,39 +210,38 @@ fn calibrate(command: &str) -> Option<String> {
     arguments.starts_with("calibrate ").then(|| format!("trueaxis {arguments}"))
 }
 
-/// Poses that would tell causes apart, or that none would.
+/// Poses that would separate causes, or that none would.
 fn measure(diagnosis: &Diagnosis) -> Vec<Step> {
     let mut steps = Vec::new();
-    let telling = diagnosis.separating.iter().filter(|s| !s.poses.is_empty()).count();
-    if telling > 0 {
+    let separating = diagnosis.separating.iter().filter(|s| !s.poses.is_empty()).count();
+    if separating > 0 {
         let poses: usize = diagnosis.separating.iter().map(|separation| separation.poses.len()).sum();
         steps.push(Step {
-            title: "To tell the causes apart, measure".to_owned(),
+            title: "To separate the causes, measure".to_owned(),
             text: format!(
-                "{poses} poses are listed below; they make the causes differ by more than the noise."
+                "Measure the {poses} poses listed below. There the causes differ by more than the noise."
             ),
             command: None,
         });
     } else if diagnosis.separating.iter().any(|separation| !separation.never.is_empty()) {
         steps.push(Step {
-            title: "More poses will not tell".to_owned(),
-            text: "No pose within the ranges sets the causes apart; a check at the instrument does."
-                .to_owned(),
+            title: "More measurements cannot separate these causes".to_owned(),
+            text: "Inspect the instrument for each cause.".to_owned(),
             command: None,
         });
     }
     if !diagnosis.next_poses.is_empty() {
         steps.push(Step {
-            title: "To make the errors surer, measure".to_owned(),
-            text: "The poses that the study asks for are listed below.".to_owned(),
+            title: "To reduce the uncertainties, measure".to_owned(),
+            text: "Measure the poses listed below.".to_owned(),
             command: None,
         });
     }
     if !diagnosis.next_places.is_empty() {
         steps.push(Step {
-            title: "To make the errors surer, add to the set-up".to_owned(),
+            title: "To reduce the uncertainties, add to the set-up".to_owned(),
             text: format!(
-                "Best is {}. What to aim at stands under Measure next.",
+                "Best is {}. The pointings are listed under Measure next.",
                 told_places(&diagnosis.next_places[0])
             ),
             command: None,
@@ -251,7 +251,7 @@ fn measure(diagnosis: &Diagnosis) -> Vec<Step> {
 }
 
 /// Whether the data show no error, alone or together with others, and no effect.
-fn shows_nothing(diagnosis: &Diagnosis) -> bool {
+pub(super) fn shows_nothing(diagnosis: &Diagnosis) -> bool {
     diagnosis.effects.is_empty()
         && !diagnosis.errors.is_empty()
         && diagnosis.errors.iter().all(|error| !error.shown)
@@ -283,8 +283,8 @@ pub(super) fn fits_otherwise(diagnosis: &Diagnosis) -> bool {
     })
 }
 
-/// Whether all that was found may be chance, and most searches without a part of the rows find none of it.
-fn is_hardly_found_again(diagnosis: &Diagnosis) -> bool {
+/// Whether every effect may be chance, and most searches without a part of the rows do not find it.
+pub(super) fn is_hardly_repeated(diagnosis: &Diagnosis) -> bool {
     let is_repeated = diagnosis.search.is_some_and(|search| search.folds > 1);
     let hardly = |effect: &EffectFound| effect.p_value >= CHANCE && effect.selected_in_folds < 0.5;
     is_repeated && !diagnosis.effects.is_empty() && diagnosis.effects.iter().all(hardly)

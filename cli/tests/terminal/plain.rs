@@ -1,0 +1,96 @@
+//! The first screens of a dozen studies, read as a person reads them: grade, length of sentences.
+
+use super::support::trueaxis;
+
+/// Studies of every kind of observation, with effects and without.
+const STUDIES: &[&str] = &[
+    "course/study",
+    "encoder/encoder-a",
+    "encoder/encoder-b",
+    "eye-in-hand/marks",
+    "mobile-lidar/study",
+    "mobile-scanner/walls",
+    "objects/bars",
+    "objects/rings",
+    "objects/sights",
+    "objects/targets",
+    "objects/wires",
+    "turntable/turntable",
+];
+
+/// The median grade that a first screen may have: years of school, by Flesch and Kincaid.
+const GRADE: f64 = 9.0;
+
+#[test]
+fn first_screens_are_read_by_a_pupil_of_fifteen() {
+    let mut grades: Vec<(f64, &str)> =
+        STUDIES.iter().map(|study| (grade(&sentences(study)), *study)).collect();
+    grades.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (below, above) = (grades[grades.len() / 2 - 1].0, grades[grades.len() / 2].0);
+    assert!((below + above) / 2.0 <= GRADE, "{grades:?}");
+}
+
+/// The sentences of a study's first screen as lists of words, without names, code and numbers.
+fn sentences(study: &str) -> Vec<Vec<String>> {
+    let run = trueaxis(&["calibrate", &format!("examples/{study}.toml")]);
+    assert!(run.code < 2, "{run}");
+    let (screen, _) = run.stdout.split_once("\nResidual ").expect("figures follow the first screen");
+    let mut found = vec![Vec::new()];
+    let mut is_code = false;
+    for line in screen.lines().filter(|line| !line.starts_with("       trueaxis")) {
+        // Headings, items of lists and steps begin with a sign or a capital at the margin.
+        let begins =
+            line.trim_start().starts_with(['-', '1', '2', '3', '4', '5', '6']) || !line.starts_with(' ');
+        if begins || line.is_empty() {
+            found.push(Vec::new());
+        }
+        for word in line.split_whitespace() {
+            let is_name =
+                is_code || word.contains(|c: char| c.is_ascii_digit() || matches!(c, '_' | '`' | '/' | '['));
+            if word.matches('`').count() % 2 == 1 {
+                is_code = !is_code;
+            }
+            let letters: String = word.chars().filter(|c| c.is_alphabetic()).collect();
+            if !is_name && letters.chars().count() > 1 {
+                found.last_mut().expect("one at least").push(letters.to_lowercase());
+            }
+            if word.trim_end_matches([')', '`']).ends_with(['.', '?', '!', ':']) {
+                found.push(Vec::new());
+            }
+        }
+    }
+    found.retain(|sentence| !sentence.is_empty());
+    found
+}
+
+/// The grade of Flesch and Kincaid. Source: J. P. Kincaid et al., Research Branch Report 8-75, Naval Technical Training Command, 1975.
+fn grade(sentences: &[Vec<String>]) -> f64 {
+    let words: Vec<&String> = sentences.iter().flatten().collect();
+    let syllables: usize = words.iter().map(|word| syllables(word)).sum();
+    let count = words.len() as f64;
+    0.39 * count / sentences.len() as f64 + 11.8 * syllables as f64 / count - 15.59
+}
+
+/// Groups of vowels, a silent `e` at the end left out. It takes `area` for two syllables and `used` for two: right within about a tenth
+/// over a page, which is half a grade.
+fn syllables(word: &str) -> usize {
+    let is_vowel = |c: char| "aeiouyäöü".contains(c);
+    let mut count = 0;
+    let mut before = false;
+    for c in word.chars() {
+        let now = is_vowel(c);
+        count += usize::from(now && !before);
+        before = now;
+    }
+    let is_silent = word.ends_with('e') && !word.ends_with("le") && count > 1;
+    (count - usize::from(is_silent)).max(1)
+}
+
+#[test]
+fn syllables_are_counted_about_right() {
+    for (word, count) in
+        [("residual", 3), ("noise", 1), ("table", 2), ("the", 1), ("correction", 3), ("axis", 2), ("x", 1)]
+    {
+        assert_eq!(syllables(word), count, "{word}");
+    }
+}

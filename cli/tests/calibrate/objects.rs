@@ -137,7 +137,7 @@ fn the_first_screen_says_where_to_stand_next() {
     let places = next["places"].as_array().expect("a list");
     assert_eq!(places.len(), 1);
     let x = places[0]["place_m"][0].as_f64().expect("a number");
-    let best = format!("To make the errors surer, add to the set-up. Best is a station at x {x:.2} m");
+    let best = format!("To reduce the uncertainties, add to the set-up. Best is a station at x {x:.2} m");
     assert!(told.contains(&best.replace('-', "−").replace("set−up", "set-up")), "{best}: {told}");
     assert_eq!(places[0]["pointings"].as_array().expect("a list").len(), 20);
     for error in next["uncertainties"].as_array().expect("a list") {

@@ -92,7 +92,7 @@ def test_the_effect_is_found_and_every_row_is_fitted(mount, folder, alone, tmp_p
             of_drawn = dict(zip(searched.errors["name"], searched.errors["standard_uncertainty"]))[name]
             assert 0.35 < uncertainty / of_drawn < 0.45, name
     text = " ".join(repr(alone).split())
-    assert "The search read 20000 of 128000 rows, drawn from 64 files; the errors are from every row." in text
+    assert "The search used 20000 of 128000 rows from 64 files. The errors are estimated from every row." in text
     assert "On the 108000 rows that the search did not read it goes from 6.6″ to 5.8″." in text
     assert "The search read 20000 of 128000 rows" in alone.html(whole=False)
 

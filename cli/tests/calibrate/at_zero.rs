@@ -25,7 +25,7 @@ fn an_error_that_stands_for_zero_of_a_far_input_is_said_to() {
         );
         let run = folder.trueaxis(&["calibrate", "study.toml", "--out", "out"]);
         assert_eq!(run.code, 0, "{run}");
-        let told = "Index is the value at air = 0; these data have 18.1 to 22.0";
+        let told = "Index is the value at air = 0. These data have 18.1 to 22.0";
         let report: Value = serde_json::from_str(&folder.read("out/report.json")).expect("JSON");
         if is_told {
             assert!(run.stdout.contains(told), "{run}");

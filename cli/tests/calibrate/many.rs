@@ -81,7 +81,7 @@ fn every_row_says_the_errors_and_the_others_judge_the_effect() {
     );
     assert!(
         text.contains(
-            "The search read 6000 of 24000 rows, drawn from 3 files; the errors are from every row."
+            "The search used 6000 of 24000 rows from 3 files. The errors are estimated from every row."
         ),
         "{text}"
     );

@@ -76,8 +76,10 @@ fn three_names() -> impl Strategy<Value = [String; 3]> {
     let any = "[a-z][a-z0-9_]{0,7}(_(deg|rad|arcsec|mm|um|m|km|mas|hour|inch|ppm|turn))?";
     let one = prop_oneof![select(&NAMES[..]).prop_map(str::to_owned), any];
     proptest::array::uniform3(one).prop_filter("three names that are free", |names| {
-        let free =
-            |name: &String| !TAKEN.contains(&name.as_str()) && !name.ends_with('_') && !name.contains("__");
+        let free = |name: &String| {
+            let is_plain = !name.ends_with('_') && !name.contains("__");
+            is_plain && !TAKEN.contains(&name.as_str()) && model_core::validate::is_name(name)
+        };
         names.iter().all(free) && names[0] != names[1] && names[1] != names[2] && names[0] != names[2]
     })
 }

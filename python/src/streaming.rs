@@ -185,11 +185,12 @@ pub fn validate(
     let columns = table.columns()?;
     let Validation { rows, kept, squares, squares_kept } = errors::run(py, || {
         let read = |(chain, errors): (Text, Text)| {
-            Ok((library::studied(source(study.clone()), source(chain))?, source(errors)))
+            let studied = library::studied(source(study.clone()), source(chain))?;
+            Ok::<_, library::Failure>((studied, source(errors)))
         };
         let (before, after) = (read(before)?, read(after)?);
         let foretold = |(studied, errors)| Foretold { studied, errors };
-        let rows = || Ok(Rows::Table(library::table(&name, &columns)?));
+        let rows = || library::table(&name, &columns).map(Rows::Table);
         library::validated(
             foretold((&before.0, &before.1)),
             foretold((&after.0, &after.1)),

@@ -132,6 +132,8 @@ policy! {
     relinearise = 0.1, "validation of the prototype, change 5";
     /// Margin at which place and driver are named, nats.
     name_margin = 0.5, "examples/evaluate, seeds from 1000 and 50000 on: 5 of 482 null cases false, 46 of 48 effects told at SNR .3; at 1.5 nats 4 and 43, at 3 nats 0 and 41";
+    /// False-alarm rate of a study that says nothing else, for which the margin was chosen; a smaller one asks for a larger margin.
+    margin_at = 0.05, "as name_margin; a study that asks for less pays the logarithm of the ratio, as odds bound the rate";
     /// Distance of two scores below which two causes are one to the data, nats.
     even = 0.05, "odds of 1.05 decide nothing: the first of the catalogue stands for both";
     /// Distance from the best within which an explanation stands in the set, nats.

@@ -3,14 +3,13 @@
 use crate::problem::{Declared, Input, Joint, Load, Place, Problem, Rows};
 
 impl Problem {
-    /// The problem of some of its rows: those whose number `keeps` lets stay.
+    /// The problem of those of its rows that stay, one of these a row.
     #[must_use]
-    pub fn of_rows(&self, keeps: impl Fn(usize) -> bool) -> Self {
-        let kept: Vec<bool> = (0..self.rows.count).map(keeps).collect();
+    pub fn of_rows(&self, kept: &[bool]) -> Self {
         let some = |values: &[f64]| -> Vec<f64> {
             // As many values a row as the list has.
             let a_row = values.len() / kept.len().max(1);
-            let own = values.chunks(a_row.max(1)).zip(&kept).filter(|(_, kept)| **kept);
+            let own = values.chunks(a_row.max(1)).zip(kept).filter(|(_, kept)| **kept);
             own.flat_map(|(own, _)| own.iter().copied()).collect()
         };
         let all = |lists: &[Vec<f64>]| lists.iter().map(|list| some(list)).collect();
@@ -28,7 +27,7 @@ impl Problem {
             ..joint.clone()
         };
         let labels = |labels: &Vec<usize>| {
-            labels.iter().zip(&kept).filter(|(_, kept)| **kept).map(|(label, _)| *label).collect()
+            labels.iter().zip(kept).filter(|(_, kept)| **kept).map(|(label, _)| *label).collect()
         };
         Self {
             rows: Rows {
@@ -108,8 +107,8 @@ mod tests {
     #[test]
     fn some_rows_are_the_problem_of_these_rows_alone() {
         let all = counted(&[0, 1, 2, 3, 4]);
-        assert_eq!(all.of_rows(|row| row != 1 && row != 4), counted(&[0, 2, 3]));
-        assert_eq!(all.of_rows(|_| true), all);
-        assert!(all.of_rows(|_| false).check().is_err());
+        assert_eq!(all.of_rows(&[true, false, true, true, false]), counted(&[0, 2, 3]));
+        assert_eq!(all.of_rows(&[true; 5]), all);
+        assert!(all.of_rows(&[false; 5]).check().is_err());
     }
 }

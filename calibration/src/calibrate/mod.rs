@@ -213,17 +213,18 @@ fn searched<'a>(
     first: Round<'a>,
     own: &'a Loop,
 ) -> Result<Chosen<'a>, CalibrateError> {
-    let Some(told) = weighed::weighed(whole, &first)? else {
-        let round = outliers::reconsidered(whole, rounds(whole, first)?)?;
-        let (whole, round) = memory::settled(whole.clone(), &own.remembering, round)?;
-        return Ok(chosen(&whole, before, round, &own.studies)?);
-    };
-    if let Some((round, contest)) = weighed::explained(whole, &first, &told)? {
+    let told = weighed::weighed(whole, &first)?;
+    if let Some(told) = &told
+        && let Some((round, contest)) = weighed::explained(whole, &first, told)?
+    {
         return Ok(Chosen { contest, ..Chosen::of(whole.clone(), judged(whole, before, round)?) });
     }
     let round = outliers::reconsidered(whole, rounds(whole, first)?)?;
-    let (whole, round, left_out) = weighed::settled(whole.clone(), &own.remembering, round, &told)?;
-    let contest = told.contest;
+    let (whole, round, left_out) = match &told {
+        None => (whole.clone(), round, None),
+        Some(told) => weighed::settled(whole.clone(), &own.remembering, round, told)?,
+    };
+    let contest = told.map_or_else(Vec::new, |told| told.contest);
     let Some(left_out) = left_out else {
         let (whole, round) = memory::settled(whole, &own.remembering, round)?;
         return Ok(Chosen { contest, ..chosen(&whole, before, round, &own.studies)? });
@@ -232,6 +233,7 @@ fn searched<'a>(
     judged.left_out.push(left_out);
     Ok(Chosen { contest, ..Chosen::of(whole, judged) })
 }
+
 /// What a first fit that cannot be gone on with comes to.
 fn unusable(
     whole: &Context<'_>,

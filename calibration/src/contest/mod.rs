@@ -24,9 +24,6 @@ use study::Undeclared;
 /// Values that a contest reads at most: its time grows with them.
 const MOST_VALUES: usize = 4_000;
 
-/// The rate of false alarms at which the margin of the policy was measured.
-const MEASURED_AT: f64 = 0.05;
-
 /// What a contest tells.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Told {
@@ -85,7 +82,7 @@ impl Contest {
     pub fn at(whole: &Context<'_>, fitted: &Fitted) -> Result<Self, SearchError> {
         let mut policy = Policy::default();
         // False alarms fall as odds rise, by as much at least.
-        policy.name_margin += (MEASURED_AT / whole.options.false_alarm).ln().max(0.0);
+        policy.name_margin += (policy.margin_at / whole.options.false_alarm).ln().max(0.0);
         Ok(Self { asked: problem::asked(whole, fitted)?, policy })
     }
 
@@ -94,28 +91,29 @@ impl Contest {
     /// A column of the file that the study does not name may say which rows belong together. Where a cause is told, each is asked
     /// whether its values explain the rows better.
     pub fn told(&self, whole: &Context<'_>) -> Option<Told> {
-        let outcome = self.of(&self.asked.problem)?;
-        let (mut odds, mut best) = (outcome.odds(), self.read(&outcome));
-        best.contest = recorded::recorded(&outcome, self.policy.even);
-        if best.is_nothing() || self.asked.problem.rows.labels.is_some() {
-            return Some(best);
-        }
-        let sample = whole.request.sample;
-        let undeclared = sample.map_or_else(Vec::new, |sample| sample.undeclared(whole.request.observations));
-        let price = (undeclared.len() as f64).ln();
-        for Undeclared { column, of_row } in undeclared {
-            let mut labelled = self.asked.problem.clone();
-            labelled.rows.labels = Some(of_row);
-            if let Some(other) = self.of(&labelled).filter(|other| other.odds() - price > odds) {
-                odds = other.odds() - price;
-                best = Told {
-                    column: Some(column),
-                    contest: recorded::recorded(&other, self.policy.even),
-                    ..self.read(&other)
-                };
+        let own = self.of(&self.asked.problem)?;
+        let labelled = if self.read(&own).is_nothing() { Vec::new() } else { self.labelled(whole) };
+        let price = (labelled.len() as f64).ln();
+        let (mut odds, mut best, mut by) = (own.odds(), own, None);
+        for (column, problem) in &labelled {
+            if let Some(other) = self.of(problem).filter(|other| other.odds() - price > odds) {
+                (odds, best, by) = (other.odds() - price, other, Some(column.clone()));
             }
         }
-        Some(best)
+        let contest = recorded::recorded(&best, self.policy.even);
+        Some(Told { column: by, contest, ..self.read(&best) })
+    }
+
+    /// The problem with rows labelled by each column that the study does not name; none where they have labels.
+    fn labelled(&self, whole: &Context<'_>) -> Vec<(String, Problem)> {
+        let sample = whole.request.sample.filter(|_| self.asked.problem.rows.labels.is_none());
+        let undeclared = sample.map_or_else(Vec::new, |sample| sample.undeclared(whole.request.observations));
+        let labelled = |Undeclared { column, of_row }| {
+            let mut problem = self.asked.problem.clone();
+            problem.rows.labels = Some(of_row);
+            (column, problem)
+        };
+        undeclared.into_iter().map(labelled).collect()
     }
 
     fn of<'p>(&'p self, problem: &'p Problem) -> Option<Outcome<'p>> {
@@ -156,8 +154,8 @@ impl Contest {
 }
 
 impl Explains for Contest {
-    fn of_rows(&self, keeps: &(dyn Fn(usize) -> bool + Sync)) -> Vec<EffectId> {
-        let some = self.asked.problem.of_rows(keeps);
+    fn of_rows(&self, stay: &[bool]) -> Vec<EffectId> {
+        let some = self.asked.problem.of_rows(stay);
         let told = self.of(&some).map(|outcome| self.read(&outcome));
         told.map_or_else(Vec::new, |told| told.causes.iter().map(|found| found.effect).collect())
     }

@@ -1,7 +1,7 @@
 //! The contest as it is told: who competed, what speaks for each, what each costs, and why it is or is not told.
 
 use evidence::families::Law;
-use evidence::{Finding, Outcome, Reason, Step};
+use evidence::{Finding, Outcome, Policy, Reason, Step};
 use serde::Serialize;
 
 /// A hypothesis of the contest, and how it came out.
@@ -35,6 +35,14 @@ pub struct Hypothesis {
     pub needs: Option<f64>,
     /// Why it left again, where it had come.
     pub left: Option<String>,
+}
+
+impl Hypothesis {
+    /// Whether it is one to the data with the cause that it competes with.
+    #[must_use]
+    pub fn is_one_with_it(&self) -> bool {
+        self.behind.is_some_and(|behind| behind <= Policy::default().even)
+    }
 }
 
 /// The family that stands for a finding: of the catalogue's effects that are one to the data the first. None where none is among those

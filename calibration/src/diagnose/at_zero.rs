@@ -128,19 +128,19 @@ fn moved(
         values.fill(1.0);
     }
     let columns = Columns::at(chain, &at_one, &fit.parameters, &fit.values, &[])?.declared;
-    let column = |at: usize| (columns.col_as_slice(at), columns.col(at).norm_l2());
+    let lengths: Vec<f64> = told.iter().map(|&at| columns.col(at).norm_l2()).collect();
+    let beside =
+        Mat::from_fn(columns.nrows(), told.len(), |row, own| columns[(row, told[own])] / lengths[own]);
+    let factor = beside.qr();
     let mut shifts = vec![0.0; told.len()];
     for at in follow {
-        let (constant, length) = column(at);
-        let beside = Mat::from_fn(constant.len(), told.len(), |row, own| {
-            column(told[own]).0[row] / column(told[own]).1
-        });
-        let share = beside.qr().solve_lstsq(Mat::from_fn(constant.len(), 1, |row, _| constant[row]));
-        let left = Mat::from_fn(constant.len(), 1, |row, _| constant[row]) - &beside * &share;
-        if left.norm_l2() <= SAME * length {
+        let constant = columns.subcols(at, 1);
+        let share = factor.solve_lstsq(constant);
+        let left = constant - &beside * &share;
+        if left.norm_l2() <= SAME * constant.norm_l2() {
+            let by = fit.values[fit.parameters[at].index()] * mean;
             for (own, shift) in shifts.iter_mut().enumerate() {
-                *shift +=
-                    fit.values[fit.parameters[at].index()] * mean * share[(own, 0)] / column(told[own]).1;
+                *shift += by * share[(own, 0)] / lengths[own];
             }
         }
     }

@@ -1,8 +1,8 @@
 //! One round: the declaration with the effects accepted so far is fitted, and the search starts from there.
 
-use super::SearchError;
 use std::sync::Arc;
 
+use super::SearchError;
 use super::confounded::{SetColumns, SetId};
 use super::context::{Context, Found};
 use super::fitted::Fitted;
@@ -19,8 +19,8 @@ const SURE: f64 = 3.0;
 
 /// What explains rows by effects of the catalogue.
 pub(crate) trait Explains: Send + Sync {
-    /// The effects that explain those of the rows that stay.
-    fn of_rows(&self, keeps: &(dyn Fn(usize) -> bool + Sync)) -> Vec<EffectId>;
+    /// The effects that explain those of the rows that stay, one of these a row.
+    fn of_rows(&self, stay: &[bool]) -> Vec<EffectId>;
 }
 
 /// A fit, and the search that starts from it.
@@ -167,14 +167,14 @@ impl<'a> Round<'a> {
             return (selection.accepted.iter().map(|accepted| accepted.set).collect(), selection.state);
         };
         let rows = &self.search.rows;
-        let mut stays = vec![false; rows.observations.rows()];
+        let mut stay = vec![false; rows.observations.rows()];
         for component in problem.rows_of_folds(seen) {
-            stays[rows.columns.row[component] as usize] = true;
+            stay[rows.columns.row[component] as usize] = true;
         }
         let blocks = SetColumns::of(problem, &self.sets);
         let mut state = State::declared(problem, seen);
         let mut sets = Vec::new();
-        for set in explains.of_rows(&|row| stays[row]).into_iter().filter_map(|effect| self.set_of(effect)) {
+        for set in explains.of_rows(&stay).into_iter().filter_map(|effect| self.set_of(effect)) {
             if !sets.contains(&set) {
                 state.add(&blocks[set]);
                 sets.push(set);

@@ -79,6 +79,21 @@ fn line(drawn: &mut Drawn, [azimuth, elevation]: [f64; 2], seen: [f64; 3], cell:
     format!("{azimuth:.12},{elevation:.12},{x:.15},{y:.15},{z:.15},{cell}\n")
 }
 
+/// A study of the mount with its data.
+fn measured(folder: &Folder, study: &str, data: &str) {
+    folder.write("mount.chain", MOUNT).write("study.toml", study).write("measured.csv", data);
+}
+
+/// Readings from all over the sky, 15° to 75° high.
+fn anywhere(drawn: &mut Drawn) -> [f64; 2] {
+    [360.0 * drawn.even() - 180.0, 15.0 + 60.0 * drawn.even()].map(f64::to_radians)
+}
+
+/// What is seen where the fork bends by 3″ a degree of temperature from 20.
+fn warm(azimuth: f64, elevation: f64, temperature: f64) -> [f64; 3] {
+    sight(azimuth, elevation, [15.0 * ARCSEC, -9.0 * ARCSEC], 3.0 * ARCSEC * (temperature - 20.0))
+}
+
 fn report(folder: &Folder) -> Value {
     let run = folder.trueaxis(&["calibrate", "study.toml", "--format", "json"]);
     assert_eq!(run.code, 0, "{run}");
@@ -99,16 +114,11 @@ fn an_effect_along_a_slow_path_is_found_and_not_taken_for_memory() {
         let wave = |turns: f64| 1.0 - (2.0 * ((turns * part).fract()) - 1.0).abs();
         let [azimuth, elevation] = [360.0 * wave(2.0), 20.0 + 60.0 * wave(3.4)].map(f64::to_radians);
         let temperature = 20.0 + 5.0 * (2.0 * PI * 1.3 * part).sin();
-        let seen =
-            sight(azimuth, elevation, [15.0 * ARCSEC, -9.0 * ARCSEC], 3.0 * ARCSEC * (temperature - 20.0));
+        let seen = warm(azimuth, elevation, temperature);
         data += &line(&mut drawn, [azimuth, elevation], seen, &format!("{temperature:.4}"));
     }
     let folder = Folder::new("weighed-path");
-    let search = "[search]\ninputs = [\"temperature\"]\n";
-    folder
-        .write("mount.chain", MOUNT)
-        .write("study.toml", format!("{STUDY}{search}"))
-        .write("measured.csv", data);
+    measured(&folder, &format!("{STUDY}[search]\ninputs = [\"temperature\"]\n"), &data);
     let report = report(&folder);
     assert_eq!(causes(&report), ["\"temperature\" \"Rx\""], "{:?}", report["cautions"]);
 }
@@ -118,13 +128,12 @@ fn off_centre(folder: &Folder) {
     let mut drawn = Drawn(8);
     let mut data = String::from("azimuth,elevation,x,y,z,number\n");
     for row in 0..300 {
-        let [azimuth, elevation] =
-            [360.0 * drawn.even() - 180.0, 15.0 + 60.0 * drawn.even()].map(f64::to_radians);
+        let [azimuth, elevation] = anywhere(&mut drawn);
         let turned = elevation - 95.0 * ARCSEC * elevation.cos() - 50.0 * ARCSEC * elevation.sin();
         let seen = sight(azimuth, turned, [15.0 * ARCSEC, -9.0 * ARCSEC], 0.0);
         data += &line(&mut drawn, [azimuth, elevation], seen, &row.to_string());
     }
-    folder.write("mount.chain", MOUNT).write("study.toml", STUDY).write("measured.csv", data);
+    measured(folder, STUDY, &data);
 }
 
 #[test]
@@ -168,19 +177,13 @@ fn an_index_that_takes_up_a_far_temperature_is_said_to_be_at_zero_of_it() {
     let mut drawn = Drawn(11);
     let mut data = String::from("azimuth,elevation,x,y,z,temperature\n");
     for _ in 0..200 {
-        let [azimuth, elevation] =
-            [360.0 * drawn.even() - 180.0, 15.0 + 60.0 * drawn.even()].map(f64::to_radians);
+        let [azimuth, elevation] = anywhere(&mut drawn);
         let temperature = 14.0 + 12.0 * drawn.even();
-        let seen =
-            sight(azimuth, elevation, [15.0 * ARCSEC, -9.0 * ARCSEC], 3.0 * ARCSEC * (temperature - 20.0));
+        let seen = warm(azimuth, elevation, temperature);
         data += &line(&mut drawn, [azimuth, elevation], seen, &format!("{temperature:.4}"));
     }
     let folder = Folder::new("weighed-zero");
-    let search = "[search]\ninputs = [\"temperature\"]\n";
-    folder
-        .write("mount.chain", MOUNT)
-        .write("study.toml", format!("{STUDY}{search}"))
-        .write("measured.csv", data);
+    measured(&folder, &format!("{STUDY}[search]\ninputs = [\"temperature\"]\n"), &data);
     let report = report(&folder);
     assert_eq!(causes(&report), ["\"temperature\" \"Rx\""], "{:?}", report["cautions"]);
     // The effect is written at the fork; the index is the tube's, and takes up what the effect has of a constant.

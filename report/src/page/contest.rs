@@ -1,6 +1,6 @@
 //! Why this and not that: the contest as one picture, a bar of evidence beside a bar of price for each hypothesis.
 
-use crate::words::contest::{MEANING, percent, why};
+use crate::words::contest::{MEANING, percent, reason};
 use calibration::diagnose::{Diagnosis, Hypothesis};
 use maud::{Markup, html};
 
@@ -39,7 +39,7 @@ pub fn contest(diagnosis: &Diagnosis) -> Markup {
                                     th scope="row" { (own.name) }
                                     td { (bars(own, most)) }
                                     td.number { @if own.share > 0.0 { (percent(own.share)) } }
-                                    td { (why(own, diagnosis).trim_start_matches(own.name.as_str()).trim_start_matches(": ")) }
+                                    td { (reason(own, diagnosis)) }
                                 }
                             }
                         }

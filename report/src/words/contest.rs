@@ -3,9 +3,6 @@
 use super::numbers;
 use calibration::diagnose::{Diagnosis, Hypothesis};
 
-/// Nats within which one cause is as likely as the other to within a twentieth.
-const NONE: f64 = 0.05;
-
 /// The hypotheses whose names hold all words of a text, in the order of the contest.
 #[must_use]
 pub fn called<'a>(diagnosis: &'a Diagnosis, text: &str) -> Vec<&'a Hypothesis> {
@@ -17,23 +14,23 @@ pub fn called<'a>(diagnosis: &'a Diagnosis, text: &str) -> Vec<&'a Hypothesis> {
     diagnosis.contest.iter().filter(holds).collect()
 }
 
-/// Why a hypothesis is, or is not, reported, in sentences.
+/// Why a hypothesis is, or is not, reported, in sentences that begin with its name.
 #[must_use]
 pub fn why(own: &Hypothesis, diagnosis: &Diagnosis) -> String {
-    let (name, price) = (&own.name, nats(own.price));
+    format!("{}: {}", own.name, reason(own, diagnosis))
+}
+
+/// The same without its name.
+#[must_use]
+pub fn reason(own: &Hypothesis, diagnosis: &Diagnosis) -> String {
+    let price = nats(own.price);
     let size = |value: f64| numbers::short(value, diagnosis.unit);
     if let (Some(leader), Some(behind)) = (&own.instead_of, own.behind) {
-        return if behind <= NONE {
-            format!(
-                "{name}: these data cannot separate this from {leader}. Its share is {}.",
-                percent(own.share)
-            )
+        let share = percent(own.share);
+        return if own.is_one_with_it() {
+            format!("these data cannot separate this from {leader}. Its share is {share}.")
         } else {
-            format!(
-                "{name}: {} behind {leader}, which explains the same error. Its share is {}.",
-                nats(behind),
-                percent(own.share)
-            )
+            format!("{} behind {leader}, which explains the same error. Its share is {share}.", nats(behind))
         };
     }
     if own.told {
@@ -42,20 +39,16 @@ pub fn why(own: &Hypothesis, diagnosis: &Diagnosis) -> String {
         });
         let share =
             if own.share > 0.0 { format!(" Its share is {}.", percent(own.share)) } else { String::new() };
-        return format!("{name}: reported.{gain}{share}");
+        return format!("reported.{gain}{share}");
     }
     let left = own
         .left
         .as_ref()
         .map_or_else(String::new, |left| format!(" It was accepted first, then removed ({left})."));
     match own.needs {
-        None => {
-            format!(
-                "{name}: the reported effects can imitate this completely. These data cannot show it.{left}"
-            )
-        }
+        None => format!("the reported effects can imitate this completely. These data cannot show it.{left}"),
         Some(needs) => format!(
-            "{name}: it shows {1} beside the reported effects, and would need {0} to be reported.{left}",
+            "it shows {1} beside the reported effects, and would need {0} to be reported.{left}",
             size(needs),
             size(own.shows)
         ),

@@ -21,6 +21,12 @@ fn folder(name: &str) -> Folder {
     folder
 }
 
+/// Exports the scanner's line of sight as terms of TPOINT.
+fn sight_as_tpoint(folder: &Folder, out: &str) -> Run {
+    let what = ["export", "scanner.toml", "--form", "tpoint", "--observable", "sight", "--out"];
+    folder.trueaxis(&[&what[..], &[out]].concat())
+}
+
 fn refused(run: &Run, why: &str) {
     assert_eq!(run.code, 2, "{run}");
     assert_eq!(run.stdout, "", "{run}");
@@ -81,16 +87,7 @@ fn a_region_that_the_file_does_not_say() {
         .replace("Rx(elevation)", "Rx(elevation); motion_error: Rx(warm*degrees)")
         .replace("input distance", "input degrees: temperature; input distance");
     folder.write("scanner.toml", instrument(&chain, "warm = 1e-6", ""));
-    let run = folder.trueaxis(&[
-        "export",
-        "scanner.toml",
-        "--form",
-        "tpoint",
-        "--observable",
-        "sight",
-        "--out",
-        "a",
-    ]);
+    let run = sight_as_tpoint(&folder, "a");
     refused(&run, "add it to [found-over], as degrees = [1.0, 2.0]");
 }
 
@@ -98,41 +95,14 @@ fn a_region_that_the_file_does_not_say() {
 fn nothing_is_written_over_what_is_read() {
     let folder = folder("export-over");
     let before = folder.read("scanner.toml");
-    let run = folder.trueaxis(&[
-        "export",
-        "scanner.toml",
-        "--form",
-        "tpoint",
-        "--observable",
-        "sight",
-        "--out",
-        "scanner.toml",
-    ]);
+    let run = sight_as_tpoint(&folder, "scanner.toml");
     refused(&run, "scanner.toml");
     assert_eq!(folder.read("scanner.toml"), before);
     // Another file is replaced, as every command does.
     folder.write("a", "old");
-    let run = folder.trueaxis(&[
-        "export",
-        "scanner.toml",
-        "--form",
-        "tpoint",
-        "--observable",
-        "sight",
-        "--out",
-        "a",
-    ]);
+    let run = sight_as_tpoint(&folder, "a");
     assert_eq!(run.code, 0, "{run}");
     assert!(folder.read("a").ends_with("END\n"));
-    let run = folder.trueaxis(&[
-        "export",
-        "scanner.toml",
-        "--form",
-        "tpoint",
-        "--observable",
-        "sight",
-        "--out",
-        "no/such/a",
-    ]);
+    let run = sight_as_tpoint(&folder, "no/such/a");
     refused(&run, "create it first");
 }

@@ -2,7 +2,7 @@
 
 use std::array::from_fn;
 
-use crate::support::Folder;
+use crate::support::{Folder, Run};
 use crate::{instrument, said};
 
 /// Three joints, the last about an axis that lies along none of its frame's, and a flange; a camera that is not on the way.
@@ -42,6 +42,12 @@ fn errors() -> String {
 }
 
 const FOUND: &str = "[found-over]\nslide = [\"0 m\", \"0.4 m\"]\nlift = [\"-80 deg\", \"60 deg\"]\n";
+
+/// Exports the instrument into the robot's own description.
+fn written(folder: &Folder, out: &str) -> Run {
+    let what = ["export", "instrument.toml", "--form", "urdf", "--template", "robot.urdf", "--out"];
+    folder.trueaxis(&[&what[..], &[out]].concat())
+}
 
 /// A folder with the robot and its declaration.
 fn folder(name: &str) -> Folder {
@@ -152,16 +158,7 @@ fn the_declaration_is_the_robot() {
 fn origins_are_those_of_the_calibrated_robot_and_every_other_byte_stays() {
     let folder = folder("urdf-written");
     let declared = evaluated(&folder, &errors(), POSE);
-    let run = folder.trueaxis(&[
-        "export",
-        "instrument.toml",
-        "--form",
-        "urdf",
-        "--template",
-        "robot.urdf",
-        "--out",
-        "new.urdf",
-    ]);
+    let run = written(&folder, "new.urdf");
     let said = said(&run);
     assert!(said.contains("pan-joint: turned by 60.0″"), "{run}");
     assert!(said.contains("The form carries every error"), "{run}");
@@ -219,16 +216,7 @@ fn a_template_that_is_another_robot_is_refused() {
     let run = folder.trueaxis(&["export", "instrument.toml", "--form", "urdf", "--out", "new.urdf"]);
     assert_eq!(run.code, 2, "{run}");
     assert!(run.stderr.contains("name that file with --template"), "{run}");
-    let run = folder.trueaxis(&[
-        "export",
-        "instrument.toml",
-        "--form",
-        "urdf",
-        "--template",
-        "robot.urdf",
-        "--out",
-        "robot.urdf",
-    ]);
+    let run = written(&folder, "robot.urdf");
     assert_eq!(run.code, 2, "{run}");
     assert_eq!(folder.read("robot.urdf"), ROBOT);
 }

@@ -197,8 +197,7 @@ impl Shows for Shown<'_> {
 #[must_use]
 pub fn in_vectors(instrument: &Instrument) -> Option<(Chain, Vec<f64>)> {
     let chain = instrument.headings.as_ref()?.chain.clone();
-    let mut values = chain.nominal_values();
     // The study's own inputs stand behind the symbols of the declaration.
-    values[..instrument.values.len()].copy_from_slice(&instrument.values);
+    let values = instrument.values_in(&chain);
     Some((chain, values))
 }

@@ -10,4 +10,5 @@ pub use as_measured::{AsMeasured, in_vectors};
 pub use found::{Counted, Outside};
 pub use seen::{As, Seen};
 pub use solve::Solver;
+pub(crate) use solve::distance;
 pub use uncertain::Uncertain;

@@ -215,7 +215,8 @@ impl Solver {
     }
 }
 
-fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+/// The distance of two points, m.
+pub(crate) fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 

@@ -7,12 +7,13 @@ mod observed;
 mod same;
 mod text;
 
-use model_core::{SymbolId, SymbolKind};
+use model_core::SymbolId;
 use nalgebra::{DMatrix, DVector};
 use observe::SiUnit;
 
 use crate::Instrument;
 use crate::errors_file::FoundOver;
+use crate::instrument::errors_and_constants;
 use crate::refusal::Refusal;
 
 pub use history::{Drift, days};
@@ -153,7 +154,7 @@ fn values(files: &[File<'_>]) -> Vec<Value> {
     let mut named: Vec<(&str, SiUnit)> = Vec::new();
     for instrument in files.iter().rev().map(|file| file.instrument) {
         let chain = &instrument.chain;
-        for id in chain.symbols_of(SymbolKind::Error).chain(chain.symbols_of(SymbolKind::Constant)) {
+        for id in errors_and_constants(chain) {
             let symbol = chain.symbol(id);
             if !named.iter().any(|(name, _)| *name == symbol.name) {
                 named.push((&symbol.name, symbol.quantity.into()));

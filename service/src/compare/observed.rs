@@ -1,25 +1,15 @@
 //! What the change of all values together does to what is observed, over the region that both calibrations measured.
 
-use model_core::{Chain, SymbolId, SymbolKind};
+use model_core::{Chain, SymbolId};
 use nalgebra::{DMatrix, DVector};
 use observe::{Poses, SiUnit};
 
 use super::File;
 use crate::Instrument;
 use crate::errors_file::FoundOver;
+use crate::instrument::errors_and_constants;
 use crate::refusal::Refusal;
-use crate::sensitivity::{Watched, derivatives, without_errors};
-
-/// Poses at which it is looked at.
-///
-/// Source: of a sum of sines and cosines up to the fourth of three joints, the rms over so many poses of the Kronecker sequence differs from
-/// that over all by less than 2 %.
-const POSES: usize = 512;
-
-/// Combinations whose singular value is below this part of the largest are not observed.
-///
-/// Source: the threshold of `fit` (`subspace`), by which a calibration decides what its data determine.
-const OBSERVED: f64 = 1e-8;
+use crate::sensitivity::{OBSERVED, POSES, Watched, derivatives, without_errors};
 
 /// The change of one observable.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,11 +74,11 @@ struct Moved {
 pub(super) fn changes(files: [&File<'_>; 2], region: &[FoundOver]) -> Result<Vec<Observed>, Refusal> {
     let [first, last] = files.map(|file| file.instrument);
     let mut moved: Vec<Moved> = Vec::new();
-    for symbol in estimated_or_held(&last.chain) {
+    for symbol in errors_and_constants(&last.chain) {
         let in_first = first.chain.find_symbol(&last.chain.symbol(symbol).name);
         moved.push(Moved { in_first, in_last: Some(symbol) });
     }
-    for symbol in estimated_or_held(&first.chain) {
+    for symbol in errors_and_constants(&first.chain) {
         if last.chain.find_symbol(&first.chain.symbol(symbol).name).is_none() {
             moved.push(Moved { in_first: Some(symbol), in_last: None });
         }
@@ -121,10 +111,6 @@ pub(super) fn changes(files: [&File<'_>; 2], region: &[FoundOver]) -> Result<Vec
     Ok(all)
 }
 
-fn estimated_or_held(chain: &Chain) -> impl Iterator<Item = SymbolId> {
-    chain.symbols_of(SymbolKind::Error).chain(chain.symbols_of(SymbolKind::Constant))
-}
-
 /// Derivatives half way between the values of both files, where the difference of what is observed is, to second order, what they make of the
 /// change of all values.
 fn columns([first, last]: [&Instrument; 2], moved: &[Moved], poses: &Poses) -> Result<DMatrix<f64>, Refusal> {
@@ -132,7 +118,7 @@ fn columns([first, last]: [&Instrument; 2], moved: &[Moved], poses: &Poses) -> R
     let mut of = |instrument: &Instrument, other: &Instrument, by: Vec<(usize, SymbolId)>, poses: &Poses| {
         let Some(headings) = &instrument.headings else { return Ok(()) };
         let mut values = headings.chain.nominal_values();
-        for id in estimated_or_held(&instrument.chain) {
+        for id in errors_and_constants(&instrument.chain) {
             let there = other.chain.find_symbol(&instrument.chain.symbol(id).name);
             let there = there.map_or(0.0, |there| other.values[there.index()]);
             values[id.index()] = 0.5 * (instrument.values[id.index()] + there);
@@ -216,9 +202,7 @@ pub(super) fn combinations(
     region: &[FoundOver],
 ) -> Result<Option<DMatrix<f64>>, Refusal> {
     let Some(headings) = &instrument.headings else { return Ok(None) };
-    let mut values = headings.chain.nominal_values();
-    values[..instrument.values.len()].copy_from_slice(&instrument.values);
-    let values = without_errors(&headings.chain, &values);
+    let values = without_errors(&headings.chain, &instrument.values_in(&headings.chain));
     let mut parts: Vec<DMatrix<f64>> = Vec::new();
     for watched in watched(instrument) {
         let Some(poses) = watched.poses(&headings.chain, region, POSES) else { return Ok(None) };

@@ -43,7 +43,7 @@ pub fn as_text(comparison: &Comparison) -> Screen {
 /// The verdict, and the sentences behind it.
 fn headline(comparison: &Comparison) -> (&'static str, String) {
     let mut changed: Vec<&Value> = comparison.values.iter().filter(|value| value.is_changed()).collect();
-    changed.sort_by(|a, b| a.p_value.unwrap_or(1.0).total_cmp(&b.p_value.unwrap_or(1.0)));
+    changed.sort_by(|a, b| tested(a).total_cmp(&tested(b)));
     let mut said = Vec::new();
     let moved: Vec<String> = changed.iter().take(NAMED).map(|value| moved(comparison, value)).collect();
     if !moved.is_empty() {
@@ -83,6 +83,11 @@ fn headline(comparison: &Comparison) -> (&'static str, String) {
     }
 }
 
+/// The p of a value that changed.
+fn tested(value: &Value) -> f64 {
+    value.p_value.unwrap_or_else(|| unreachable!("a value that changed was tested"))
+}
+
 /// `azimuth_index moved by 12.0 ± 3.0″`
 fn moved(comparison: &Comparison, value: &Value) -> String {
     match (value.change, comparison.files.len()) {
@@ -90,7 +95,7 @@ fn moved(comparison: &Comparison, value: &Value) -> String {
             format!("{} moved by {}", value.name, numbers::estimate(by, uncertainty, value.unit))
         }
         (_, files) => {
-            let p_value = numbers::chance(value.p_value.unwrap_or(0.0));
+            let p_value = numbers::chance(tested(value));
             format!("{} is not one value in {files} files ({p_value})", value.name)
         }
     }

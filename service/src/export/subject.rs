@@ -1,17 +1,15 @@
 //! What is exported: an instrument, one observable of it, and the poses of its measured region.
 
-use std::f64::consts::TAU;
-
-use model_core::budget::spread;
-use model_core::{Chain, Meaning, ObservableId, ObservableKind, Quantity, SymbolId, SymbolKind, names};
+use model_core::{Chain, ObservableId, ObservableKind, SymbolId, names};
 use observe::SiUnit;
 
 use super::Lost;
 use crate::Instrument;
-use crate::apply::in_vectors;
+use crate::apply::{distance, in_vectors};
 use crate::evaluation::{self, Evaluator, Exactness, readings_of};
 use crate::instrument::Covariance;
 use crate::refusal::Refusal;
+use crate::sensitivity::{bounds, spread_over, without_errors};
 
 /// What an observable shows, pose after pose.
 pub type Shown = Vec<[f64; 3]>;
@@ -88,9 +86,7 @@ impl Subject {
 
     /// The declared values with every error zero.
     pub fn without_errors(&self) -> Vec<f64> {
-        let mut values = self.values.clone();
-        self.chain.symbols_of(SymbolKind::Error).for_each(|error| values[error.index()] = 0.0);
-        values
+        without_errors(&self.chain, &self.values)
     }
 
     /// What the observable shows at the poses with these values of errors and constants.
@@ -179,31 +175,15 @@ impl Poses {
     fn over(instrument: &Instrument, chain: &Chain, observable: ObservableId) -> Result<Self, Refusal> {
         let needed = readings_of(chain, observable);
         let range = |id: &SymbolId| {
-            let symbol = chain.symbol(*id);
-            let turns = symbol.kind == SymbolKind::Joint && symbol.quantity == Quantity::Angle;
-            match instrument.found.iter().find(|found| found.symbol == *id) {
-                Some(found) => Ok((found.low, found.high)),
-                None if turns => Ok((0.0, TAU)),
-                None => Err(Refusal::Input(format!(
+            bounds(chain, &instrument.found, *id).ok_or_else(|| {
+                Refusal::Input(format!(
                     "the instrument file does not say over which `{0}` it was measured: add it to [found-over], as {0} = [1.0, 2.0]",
-                    symbol.name
-                ))),
-            }
+                    chain.symbol(*id).name
+                ))
+            })
         };
         let ranges: Vec<(f64, f64)> = needed.iter().map(range).collect::<Result<_, _>>()?;
-        let mut readings: Vec<(SymbolId, Vec<f64>)> =
-            needed.iter().map(|id| (*id, Vec::with_capacity(POSES))).collect();
-        for pose in spread(&ranges, POSES) {
-            for (((id, column), value), (low, high)) in readings.iter_mut().zip(pose).zip(&ranges) {
-                // A side is one or the other.
-                let is_either = matches!(
-                    chain.symbol(*id).meaning,
-                    Some(Meaning::Side | Meaning::Direction | Meaning::Session)
-                );
-                let nearest = if value - low < high - value { *low } else { *high };
-                column.push(if is_either { nearest } else { value });
-            }
-        }
+        let readings = spread_over(chain, &needed, &ranges, POSES);
         let ranges = ranges.into_iter().map(|(low, high)| [low, high]).collect();
         Ok(Self { readings, ranges, count: POSES })
     }
@@ -214,9 +194,4 @@ fn angle(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
     let dot: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
     distance(&cross, &[0.0; 3]).atan2(dot)
-}
-
-/// The distance of two points, m.
-fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
 }

@@ -114,9 +114,14 @@ impl Covariance {
     }
 }
 
+/// What a study may estimate of a chain.
+pub(crate) fn errors_and_constants(chain: &Chain) -> impl Iterator<Item = SymbolId> {
+    chain.symbols_of(SymbolKind::Error).chain(chain.symbols_of(SymbolKind::Constant))
+}
+
 /// The error or constant of a name.
 fn estimate(source: &Source, chain: &Chain, name: &Spanned<String>) -> Result<SymbolId, Refusal> {
-    let of_kind = || chain.symbols_of(SymbolKind::Error).chain(chain.symbols_of(SymbolKind::Constant));
+    let of_kind = || errors_and_constants(chain);
     let found = of_kind().find(|id| chain.symbol(*id).name == *name.get_ref());
     found.ok_or_else(|| {
         let message = format!("chain {} has no error `{}`", chain.name, name.get_ref());

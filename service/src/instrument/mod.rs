@@ -18,6 +18,7 @@ use crate::source::Source;
 use crate::warn::Warn;
 
 pub use covariance::Covariance;
+pub(crate) use covariance::errors_and_constants;
 pub use file::VERSION;
 pub use noise::Noise;
 pub use written::instrument;
@@ -111,6 +112,14 @@ impl Instrument {
             valid_until,
             made,
         })
+    }
+
+    /// The values of all symbols of a chain that has the declaration's and others behind them, SI.
+    #[must_use]
+    pub fn values_in(&self, chain: &Chain) -> Vec<f64> {
+        let mut values = chain.nominal_values();
+        values[..self.values.len()].copy_from_slice(&self.values);
+        values
     }
 
     /// How large each error may be by this calibration, SI, indexed by [`SymbolId`]: its value and two standard uncertainties. Of those

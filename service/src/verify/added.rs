@@ -29,16 +29,10 @@ pub struct Added {
 ///
 /// # Errors
 /// A reading that the observable depends on is not there.
-pub fn added(
-    rows: &Rows,
-    found: &[FoundOver],
-    values: &[f64],
-    goal: f64,
-    level: f64,
-) -> Result<Option<Added>, Refusal> {
+pub fn added(rows: &Rows, found: &[FoundOver], goal: f64, level: f64) -> Result<Option<Added>, Refusal> {
     let Some(poses) = rows.watched.poses(&rows.chain, found, CANDIDATES) else { return Ok(None) };
     let symbols: Vec<_> = rows.errors.iter().map(|(symbol, _)| *symbol).collect();
-    let raw = derivatives(&rows.chain, &poses, values, &symbols)?;
+    let raw = derivatives(&rows.chain, &poses, &rows.values, &symbols)?;
     let scaled = DMatrix::from_fn(raw.nrows(), raw.ncols(), |row, at| raw[(row, at)] * rows.errors[at].1);
     let columns = rows.whitened(&scaled);
     let all = rows.whitened(&rows.columns);

@@ -137,8 +137,6 @@ pub fn verify(
     let unit = rows.measure().unit();
     let expected = rows.sigma.iter().map(|sigma| sigma * sigma).sum::<f64>().sqrt();
     let goal = asked.goal.map(|text| wanted(text, unit)).transpose()?;
-    let mut values = rows.chain.nominal_values();
-    values[..instrument.values.len()].copy_from_slice(&instrument.values);
     let found = agreement(
         &rows
             .whitened(&DMatrix::from_column_slice(rows.residual.len(), 1, rows.residual.as_slice()))
@@ -153,7 +151,7 @@ pub fn verify(
     let mut verified = judged(&rows, &found, goal.unwrap_or(expected), asked.false_alarm, level);
     verified.goal_is_asked = goal.is_some();
     if verified.verdict == Verdict::CannotSay || verified.verdict == Verdict::NoRows {
-        verified.added = added::added(&rows, &instrument.found, &values, verified.goal, level)?;
+        verified.added = added::added(&rows, &instrument.found, verified.goal, level)?;
     }
     Ok(verified)
 }

@@ -1,5 +1,8 @@
 //! The numbers by which a check decides, each with its source.
 
+/// Poses over the region at which changes are looked at, and what counts as observed: as in a comparison.
+pub use crate::sensitivity::{OBSERVED, POSES};
+
 /// The share of checks of an unchanged instrument that end with RECALIBRATE, unless somebody asks for another.
 ///
 /// Source: convention; R. A. Fisher, Statistical Methods for Research Workers (1925), section 12.
@@ -27,11 +30,6 @@ pub const MISREAD: f64 = 100.0;
 /// Source: a likelihood ratio of e², as in A. W. F. Edwards, Likelihood (1972), section 5.4: two units of support.
 pub const AS_WELL: f64 = 4.0;
 
-/// Poses over the region at which changes are looked at.
-///
-/// Source: as in `compare`: of a sum of sines and cosines up to the fourth of three joints the rms is that over all poses to 2 %.
-pub const POSES: usize = 512;
-
 /// Poses of the region that are tried as rows to add.
 ///
 /// Source: half of [`POSES`]: a finer grid moves the proposed rows by less than a twelfth of each range.
@@ -41,8 +39,3 @@ pub const CANDIDATES: usize = 256;
 ///
 /// Source: twice the ten rows that a check is made of; who needs more had better calibrate.
 pub const MOST_ADDED: usize = 20;
-
-/// Combinations whose singular value is below this part of the largest are not observed.
-///
-/// Source: the threshold of `fit` (`subspace`), by which a calibration decides what its data determine.
-pub const OBSERVED: f64 = 1e-8;

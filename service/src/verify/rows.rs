@@ -19,6 +19,8 @@ use crate::warn::Warn;
 pub struct Rows {
     /// The chain by which all is computed; its observables show vectors.
     pub chain: Chain,
+    /// The values of all of its symbols.
+    pub values: Vec<f64>,
     /// What is observed.
     pub watched: Watched,
     /// The errors and constants that move the observable, with the size of their unit.
@@ -84,8 +86,7 @@ impl Rows {
         let noise = instrument.noise.get(at).ok_or_else(|| lacks("has no [[noise]] of this source"))?;
         loaded.doubtful.iter().for_each(|doubt| warn(doubt.to_string()));
         let chain = plan.chain.clone();
-        let mut values = chain.nominal_values();
-        values[..instrument.values.len()].copy_from_slice(&instrument.values);
+        let values = instrument.values_in(&chain);
         let watched = Watched { observable: source.observable, measure: source.measure };
         let observations = &loaded.observations;
         let poses =
@@ -131,6 +132,7 @@ impl Rows {
             noise: noise.degrees_of_freedom,
             errors,
             chain,
+            values,
         })
     }
 

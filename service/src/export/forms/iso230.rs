@@ -41,8 +41,8 @@ fn write(subject: &Subject, _: Option<&Source>) -> Result<Made, Refusal> {
     let [(joint, _)] = axes.joints.as_slice() else { unreachable!("there is one joint") };
     let symbol = subject.chain.symbol(*joint);
     let [(unit, size), (fine, small)] = units(symbol.quantity);
-    let said = said(subject, &axes, &grid, &left)
-        .replace("Add a correction to its reading.", "A deviation is the actual position minus the target.");
+    let sense = "A deviation is the actual position minus the target.";
+    let said = said(subject, &axes, &grid, &left, sense);
     let mut text: String = said.lines().map(|line| format!("# {line}\n")).collect();
     let columns = if grid.either.len() == 2 {
         format!(

@@ -26,7 +26,7 @@ fn write(subject: &Subject, _: Option<&Source>) -> Result<Made, Refusal> {
     let chain = &subject.chain;
     let axes = Axes::of(subject, FORM.name, MOST)?;
     let (grid, left) = axes.grid(subject)?;
-    let said = said(subject, &axes, &grid, &left);
+    let said = said(subject, &axes, &grid, &left, "Add a correction to its reading.");
     let mut text: String = said.lines().map(|line| format!("# {line}\n")).collect();
     let mut headings: Vec<String> =
         axes.either.iter().map(|(id, _)| chain.symbol(*id).name.clone()).collect();
@@ -63,8 +63,8 @@ fn heading(chain: &Chain, id: SymbolId, behind: &str, which: usize) -> String {
     }
 }
 
-/// What the table is, for people: in the file, and in what the command prints.
-pub fn said(subject: &Subject, axes: &Axes, grid: &Grid, left: &Difference) -> String {
+/// What the table is, for people: in the file, and in what the command prints; `sense` says what its numbers are to be added to.
+pub fn said(subject: &Subject, axes: &Axes, grid: &Grid, left: &Difference, sense: &str) -> String {
     let chain = &subject.chain;
     let nodes: Vec<String> = axes
         .joints
@@ -73,7 +73,7 @@ pub fn said(subject: &Subject, axes: &Axes, grid: &Grid, left: &Difference) -> S
         .map(|((id, _), nodes)| format!("{} nodes of {}", nodes.len(), chain.symbol(*id).name))
         .collect();
     let mut text = format!(
-        "Corrections at {}. Add a correction to its reading.\nBetween the nodes go straight. That leaves {}.\n",
+        "Corrections at {}. {sense}\nBetween the nodes go straight. That leaves {}.\n",
         nodes.join(" by "),
         size(subject, left)
     );

@@ -158,9 +158,9 @@ mod tests {
     #[test]
     fn readings_all_round_leave_no_gap_where_the_circle_is_cut() {
         let round: Vec<f64> = (-179..180).step_by(2).map(|degrees| f64::from(degrees).to_radians()).collect();
-        assert!(super::is_round(&round));
-        assert!(!super::is_round(&round[..round.len() - 4]));
-        assert!(!super::is_round(&[]) && !super::is_round(&[0.1]));
+        assert!(is_round(&round));
+        assert!(!is_round(&round[..round.len() - 4]));
+        assert!(!is_round(&[]) && !is_round(&[0.1]));
     }
 
     use calibration::amend::{Addition, amend, with_quantities_of};

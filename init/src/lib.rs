@@ -8,6 +8,7 @@ mod frame;
 pub mod links;
 mod look;
 mod observed;
+mod placed;
 pub mod robot;
 mod study;
 pub mod templates;

@@ -13,6 +13,7 @@ use model_core::validate::is_name;
 use tables::urdf::{Joint, Motion, Robot, declared_name};
 
 use super::look::Look;
+use super::placed;
 use super::turned::Turned;
 use super::{Draft, NotBegun, Observed};
 
@@ -48,6 +49,8 @@ pub struct Described {
     pub chain: String,
     /// What was read and assumed.
     pub remarks: Vec<String>,
+    /// The link that is measured.
+    tip: String,
 }
 
 /// The declaration of a robot, to the link that is named or to the one behind the most joints that move.
@@ -104,7 +107,7 @@ fn declared(description: &Description, tip: Option<&str>, is_turned: bool) -> Re
         }
         .to_owned(),
     );
-    Ok(Described { chain: chain(description, &joints, &tip, is_turned), remarks })
+    Ok(Described { chain: chain(description, &joints, &tip, is_turned), remarks, tip })
 }
 
 /// The link behind the most joints that move, the nearest of several on one way.
@@ -286,7 +289,7 @@ pub fn draft(description: &Description, tip: Option<&str>, look: &Look) -> Resul
     let robot = &description.robot;
     let mut seen = Vec::new();
     let turned = Turned::of(look, &mut seen)?;
-    let Described { chain, mut remarks } = declared(description, tip, turned.is_some())?;
+    let Described { chain, mut remarks, tip: declared_tip } = declared(description, tip, turned.is_some())?;
     remarks.append(&mut seen);
     let mut columns = Vec::new();
     for joint in robot.joints.iter().filter(|joint| joint.motion != Motion::Fixed) {
@@ -319,6 +322,12 @@ pub fn draft(description: &Description, tip: Option<&str>, look: &Look) -> Resul
         ));
     }
     remarks.splice(0..0, look.remarks.iter().cloned());
+    let path: Vec<&Joint> =
+        robot.path(&declared_tip).unwrap_or_default().into_iter().map(|at| &robot.joints[at]).collect();
+    let start = match &observed {
+        Observed::Point(points) if !description.is_seen_from_root => placed::base(&path, &columns, points),
+        _ => Vec::new(),
+    };
     let mut estimate = vec!["*", "point_*"];
     estimate.extend((!description.is_seen_from_root).then_some("base_*"));
     estimate.extend(turned.is_some().then_some("tool_*"));
@@ -333,7 +342,7 @@ pub fn draft(description: &Description, tip: Option<&str>, look: &Look) -> Resul
         } else {
             vec!["*", "point_*", "base_*"]
         },
-        start: Vec::new(),
+        start,
         inputs: Vec::new(),
         remarks,
     })

@@ -88,6 +88,10 @@ const ABOUT: &[&str] = &[
     "rate",
     "velocity",
     "speed",
+    "quat",
+    "quaternion",
+    "orientation",
+    "ori",
 ];
 const OFFSETS: &[&str] = &["offset", "error", "err", "residual", "delta", "diff", "difference", "correction"];
 

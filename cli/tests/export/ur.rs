@@ -30,7 +30,7 @@ fn list(text: &str, key: &str) -> Vec<f64> {
 
 #[test]
 fn what_was_read_is_written_back() {
-    let folder = folder("same", "q1_tilt_x = 0\n");
+    let folder = folder("same", "q2_tilt_x = 0\n");
     let told = exported(&folder);
     assert!(told.contains("Added to the nominal sizes of a UR5e"), "{told}");
     is_exact(&told);

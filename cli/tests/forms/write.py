@@ -131,7 +131,7 @@ def to_j2000(day, ha, dec, longitude):
     apparent = gast + longitude * DEG - ha
     _, _, eo = erfa.atci13(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2451545.0, tt - 2451545.0)
     ra, dec, _ = erfa.atic13(apparent + eo, dec, 2451545.0, tt - 2451545.0)
-    return ra / DEG / 15 % 24, dec / DEG
+    return float(ra) / DEG / 15 % 24, float(dec) / DEG
 
 
 def sidereal_hours(day, longitude):
@@ -140,8 +140,8 @@ def sidereal_hours(day, longitude):
 
 
 def calendar(day, digits):
-    scale, year, month, date, (hour, minute, second, fraction) = "UTC", *erfa.d2dtf("UTC", digits, 2451545.0, day - 2451545.0)[:3], tuple(
-        erfa.d2dtf("UTC", digits, 2451545.0, day - 2451545.0)[3])
+    year, month, date, clock = erfa.d2dtf("UTC", digits, 2451545.0, day - 2451545.0)
+    hour, minute, second, fraction = tuple(clock.item())
     return f"{year:04d}-{month:02d}-{date:02d}T{hour:02d}:{minute:02d}:{second:02d}.{fraction:0{digits}d}"
 
 
@@ -286,12 +286,12 @@ def disturbed(links, size=4e-4, turn=90 * ARCSEC):
             for theta, d, a, alpha in links]
 
 
-def poses(name, links, header, rows=90, modified=False):
+def poses(name, links, header, rows=40, modified=False):
     true = disturbed(links)
     lines = [header]
     for _ in range(rows):
         q = [chance.uniform(-2.4, 2.4) for _ in links]
-        at = moved((0.05, 0.03, 0.07), (0.8, -0.4, 0.3), ("x", 0.02), ("y", 0.03), ("z", -1.1), *arm_at(true, q, modified))
+        at = moved((0.35, 0.03, 0.07), (0.8, -0.4, 0.3), ("x", 0.02), ("y", 0.03), ("z", -1.1), *arm_at(true, q, modified))
         cells = [f"{angle / DEG:.7f}" for angle in q] + [f"{1000 * v + chance.gauss(0, 0.02):.4f}" for v in at]
         lines.append(",".join(cells))
     write(name, "\n".join(lines) + "\n")
@@ -320,14 +320,14 @@ def as_zyx(columns):
     return math.atan2(m[1][0], m[0][0]), math.asin(-m[2][0]), math.atan2(m[2][1], m[2][2])
 
 
-def whole_poses(name, links, joints, header, cells_of, modified=False, rows=80):
+def whole_poses(name, links, joints, header, cells_of, modified=False, rows=40):
     """Where a probe is and how it is turned, to 0.02 mm and 20 arc seconds."""
     true = disturbed(links)
     lines = [",".join([*joints, header])]
     for _ in range(rows):
         q = [chance.uniform(-2.4, 2.4) for _ in links]
         factors = [(0.8, -0.4, 0.3), ("x", 0.02), ("y", 0.03), ("z", -1.1), *arm_at(true, q, modified)]
-        at = [v + chance.gauss(0, 2e-5) for v in moved((0.05, 0.03, 0.07), *factors)]
+        at = [v + chance.gauss(0, 2e-5) for v in moved((0.35, 0.03, 0.07), *factors)]
         noise = [(axis, chance.gauss(0, 20 * ARCSEC)) for axis in "xyz"]
         turn = axes([*noise, *factors, ("x", 0.1), ("y", -0.05), ("z", 0.2)])
         lines.append(",".join([f"{angle / DEG:.7f}" for angle in q] + cells_of(at, turn)))
@@ -335,30 +335,30 @@ def whole_poses(name, links, joints, header, cells_of, modified=False, rows=80):
 
 
 def dh_tables():
-    # The first three axes of a PUMA 560 and its wrist, by J. J. Craig (2005), figure 3.21, in his convention; in metres.
-    modified = [(0, 0, 0, 0), (0, 0, 0, -math.pi / 2), (0, 0.1244, 0.4318, 0), (0, 0.4318, 0.0203, -math.pi / 2), (0, 0, 0, math.pi / 2), (0, 0, 0, -math.pi / 2)]
+    # The first three axes of a PUMA 560, by J. J. Craig (2005), figure 3.21, in his convention; in metres.
+    modified = [(0, 0, 0, 0), (0, 0, 0, -math.pi / 2), (0, 0.1244, 0.4318, 0)]
     rows = ["# PUMA 560", "# convention: modified", "joint,alpha [deg],a [mm],d [mm],theta [deg]"]
     rows += [f"{at},{alpha / DEG:g},{a * 1000:g},{d * 1000:g},q{at}" for at, (_, d, a, alpha) in enumerate(modified, 1)]
     write("puma.dh.csv", "\n".join(rows) + "\n")
-    poses("puma.poses.csv", modified, ",".join(f"q{at} [deg]" for at in range(1, 7)) + ",x [mm],y [mm],z [mm]", modified=True)
-    standard = [(0, 0.4, 0.025, math.pi / 2), (math.pi / 2, 0, 0.455, 0), (0, 0, 0.035, math.pi / 2), (0, 0.42, 0, -math.pi / 2), (0, 0, 0, math.pi / 2), (0, 0.08, 0, 0)]
+    poses("puma.poses.csv", modified, ",".join(f"q{at} [deg]" for at in range(1, 4)) + ",x [mm],y [mm],z [mm]", modified=True)
+    standard = [(0, 0.4, 0.025, math.pi / 2), (math.pi / 2, 0, 0.455, 0), (0, 0, 0.35, 0)]
     rows = ["# convention: standard", "link;theta [deg];d [m];a [m];alpha [rad]"]
     rows += [f"A{at};{f'A{at} + 90' if theta else f'A{at}'};{d:g};{a:g};{alpha:.12g}".replace(".", ",") for at, (theta, d, a, alpha) in enumerate(standard, 1)]
-    write("six-axis.dh.csv", "\n".join(rows) + "\n", "\r\n")
-    poses("six-axis.poses.csv", standard, ",".join(f"A{at} [deg]" for at in range(1, 7)) + ",x [mm],y [mm],z [mm]")
-    of_puma, of_six = [f"q{at} [deg]" for at in range(1, 7)], [f"A{at} [deg]" for at in range(1, 7)]
+    write("three-axis.dh.csv", "\n".join(rows) + "\n", "\r\n")
+    poses("three-axis.poses.csv", standard, ",".join(f"A{at} [deg]" for at in range(1, 4)) + ",x [mm],y [mm],z [mm]")
+    of_puma, of_three = [f"q{at} [deg]" for at in range(1, 4)], [f"A{at} [deg]" for at in range(1, 4)]
     millimetres = lambda at: [f"{1000 * v:.4f}" for v in at]
     whole_poses("quaternion-1.csv", modified, of_puma, "x [mm],y [mm],z [mm],qw,qx,qy,qz",
                 lambda at, turn: millimetres(at) + [f"{v:.9f}" for v in as_quaternion(turn)], True)
-    whole_poses("quaternion-2.csv", standard, of_six, "pos_x [m],pos_y [m],pos_z [m],quat_x,quat_y,quat_z,quat_w",
+    whole_poses("quaternion-2.csv", standard, of_three, "pos_x [m],pos_y [m],pos_z [m],quat_x,quat_y,quat_z,quat_w",
                 lambda at, turn: [f"{v:.7f}" for v in at] + [f"{-v:.9f}" for v in as_quaternion(turn)[1:] + as_quaternion(turn)[:1]])
-    whole_poses("euler-kuka.csv", standard, of_six, "X [mm],Y [mm],Z [mm],A [deg],B [deg],C [deg]",
+    whole_poses("euler-kuka.csv", standard, of_three, "X [mm],Y [mm],Z [mm],A [deg],B [deg],C [deg]",
                 lambda at, turn: millimetres(at) + [f"{v / DEG:.7f}" for v in as_zyx(turn)])
     whole_poses("euler-ros.csv", modified, of_puma, "x [m],y [m],z [m],roll [rad],pitch [rad],yaw [rad]",
                 lambda at, turn: [f"{v:.7f}" for v in at] + [f"{v:.9f}" for v in reversed(as_zyx(turn))], True)
     entries = lambda at, turn: [f"{(turn[c][r] if c < 3 else at[r]):.9f}" for r in range(3) for c in range(4)]
     whole_poses("matrix-12.csv", modified, of_puma, ",".join(f"m{r}{c}" + (" [m]" if c == 3 else "") for r in range(3) for c in range(4)), entries, True)
-    whole_poses("matrix-16.csv", standard, of_six, ",".join(f"T{r}{c}" + (" [m]" if c == 4 and r < 4 else "") for r in range(1, 5) for c in range(1, 5)),
+    whole_poses("matrix-16.csv", standard, of_three, ",".join(f"T{r}{c}" + (" [m]" if c == 4 and r < 4 else "") for r in range(1, 5) for c in range(1, 5)),
                 lambda at, turn: entries(at, turn) + ["0", "0", "0", "1"])
 
 

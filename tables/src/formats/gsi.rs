@@ -112,9 +112,9 @@ fn read(text: &str, source: &str, _: &Options) -> Result<Held, DataError> {
     }
     let is_placed = rows.iter().all(|row| placed.contains_key(&row.point));
     let has_stations = rows.iter().any(|row| !row.station.is_empty());
-    let mut names = vec!["point", "hz_deg", "zenith_deg", "distance_m"];
+    let mut names = vec!["point", "hz_deg", "zenith_deg", "distance [m]"];
     names.extend(has_stations.then_some("station"));
-    names.extend(["x_m", "y_m", "z_m"].into_iter().filter(|_| is_placed));
+    names.extend(["x [m]", "y [m]", "z [m]"].into_iter().filter(|_| is_placed));
     let mut held = Held::new(source, &names);
     for row in &rows {
         let mut cells = vec![
@@ -183,7 +183,7 @@ mod tests {
                     110003+0000A001 81..00+00010000 82..00+00020000 83..00-00001000\r\n\
                     110004+0000A001 21.102+10000000 22.102+09000000 31..00+00022383 51....+0000+000\r\n";
         assert!(looks(text));
-        let names = ["point", "hz_deg", "zenith_deg", "distance_m", "station", "x_m", "y_m", "z_m"];
+        let names = ["point", "hz_deg", "zenith_deg", "distance [m]", "station", "x [m]", "y [m]", "z [m]"];
         let cells = ["A001", "90.00000000000001", "81", "22.383", "S001", "10", "20", "-1"];
         let (found, rows) = table(text).unwrap_or_default();
         assert_eq!(found, names);
@@ -204,7 +204,7 @@ mod tests {
                     82..00+0000000000012000 83..00+0000000000012000\n";
         assert!(looks(text));
         let (names, rows) = table(text).unwrap_or_default();
-        assert_eq!(names, ["point", "hz_deg", "zenith_deg", "distance_m"]);
+        assert_eq!(names, ["point", "hz_deg", "zenith_deg", "distance [m]"]);
         assert_eq!(rows[0], "PNC0055");
         assert_eq!(rows[3], "");
     }

@@ -19,6 +19,8 @@ use super::{Draft, NotBegun, Observed};
 
 /// An angle of a file is a quarter turn, or several, if it is within this: files write them to so many digits, rad.
 const QUARTER: f64 = 1e-9;
+/// A shift below this is what rounding leaves of none, m.
+const NONE_M: f64 = 1e-12;
 /// A part of an axis below this is none.
 const ALONG: f64 = 1e-9;
 
@@ -174,7 +176,7 @@ fn chain(description: &Description, joints: &[&Joint], tip: &str, is_turned: boo
             Some(name)
         };
         let mut position = std::mem::take(&mut back);
-        let shifts = ["Tx", "Ty", "Tz"].iter().zip(joint.xyz).filter(|(_, size)| *size != 0.0);
+        let shifts = ["Tx", "Ty", "Tz"].iter().zip(joint.xyz).filter(|(_, size)| size.abs() > NONE_M);
         position.extend(shifts.map(|(along, size)| format!("{along}({size})")));
         let [roll, pitch, yaw] = joint.rpy;
         for (axis, what, value) in [("Rz", "yaw", yaw), ("Ry", "pitch", pitch), ("Rx", "roll", roll)] {

@@ -13,7 +13,7 @@ use super::decimal::parse;
 use super::sexagesimal::sexagesimal;
 use super::sights::{Clock, Equinox, PIER_REMARK, Sight, Site, pier};
 use super::{DataError, Options, TableReader, clipped, csv};
-use crate::sky::Instant;
+use crate::sky::Moment;
 use roles::{Calendar, Place, Roles};
 use rows::Rows;
 use stated::{DEGREE, HOUR, Lack, degrees, equinoxes, said, sidereal_unit, unit};
@@ -134,9 +134,9 @@ impl<'t> Reading<'t> {
             let text = &self.rows.column(at)[row];
             let number = || parse(text.trim(), b'\n');
             let instant = match calendar {
-                Calendar::Text => Instant::of_text(text),
-                Calendar::JulianDay => number().map(Instant::of_julian_day),
-                Calendar::ModifiedJulianDay => number().map(Instant::of_modified_julian_day),
+                Calendar::Text => Moment::of_text(text),
+                Calendar::JulianDay => number().map(Moment::of_julian_day),
+                Calendar::ModifiedJulianDay => number().map(Moment::of_modified_julian_day),
             };
             instant.ok_or_else(|| DataError::NotANumber {
                 cell: self.rows.cell(at, row),

@@ -8,7 +8,7 @@
 use super::held::Held;
 use super::sights::{Clock, Equinox, NAMES, Sight};
 use super::{DataError, Options, WholeFile, clipped};
-use crate::sky::Instant;
+use crate::sky::Moment;
 
 pub(super) const FORM: WholeFile = WholeFile { name: "points of AutoSlew (.pox)", looks, read };
 
@@ -63,7 +63,7 @@ fn read(text: &str, source: &str, options: &Options) -> Result<Held, DataError> 
             synced += 1;
             continue;
         }
-        let instant = Instant::of_text(quoted(1)).ok_or_else(|| bad(1, "is no date and time of UTC"))?;
+        let instant = Moment::of_text(quoted(1)).ok_or_else(|| bad(1, "is no date and time of UTC"))?;
         let ra = "is no right ascension in hours";
         let dec = "is no declination in degrees";
         let [read_ra, seen_ra] = [number(4, 24.0, ra)?, number(5, 24.0, ra)?];

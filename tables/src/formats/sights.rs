@@ -1,6 +1,6 @@
 //! Sights of an equatorial mount: where it truly pointed and where it said, as hour angles and declinations, with the side of its pier.
 
-use crate::sky::{Instant, of_date, sidereal_hours};
+use crate::sky::{Moment, of_date, sidereal_hours};
 
 /// The columns of sights.
 pub(super) const NAMES: [&str; 5] =
@@ -55,12 +55,12 @@ pub struct Site {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Clock {
     sidereal_hours: f64,
-    instant: Option<Instant>,
+    instant: Option<Moment>,
 }
 
 impl Clock {
     /// By a sidereal time in hours, or else by an instant at a site; none without either.
-    pub fn of(sidereal: Option<f64>, instant: Option<Instant>, site: Option<Site>) -> Option<Self> {
+    pub fn of(sidereal: Option<f64>, instant: Option<Moment>, site: Option<Site>) -> Option<Self> {
         let computed = || Some(sidereal_hours(instant?, site?.longitude_deg));
         sidereal.or_else(computed).map(|sidereal_hours| Self { sidereal_hours, instant })
     }

@@ -7,7 +7,7 @@ mod nutation;
 mod precession;
 mod time;
 
-pub use time::{Instant, sidereal_hours};
+pub use time::{Moment, sidereal_hours};
 
 use std::f64::consts::TAU;
 
@@ -25,7 +25,7 @@ type Matrix = [Vector; 3];
 
 /// The apparent right ascension (hours) and declination (degrees) of date of a place of J2000 (the frame of catalogues, ICRS).
 #[must_use]
-pub fn of_date(instant: Instant, [right_ascension_hours, declination_deg]: [f64; 2]) -> [f64; 2] {
+pub fn of_date(instant: Moment, [right_ascension_hours, declination_deg]: [f64; 2]) -> [f64; 2] {
     let centuries = instant.centuries_tt();
     let [(sin_ra, cos_ra), (sin_dec, cos_dec)] =
         [15.0 * right_ascension_hours, declination_deg].map(|degrees| degrees.to_radians().sin_cos());
@@ -84,7 +84,7 @@ mod tests {
             let &[days, ra, dec, expected_ra, expected_dec, longitude, sidereal] = numbers.as_slice() else {
                 panic!("{line}")
             };
-            let instant = Instant::of_julian_day(days);
+            let instant = Moment::of_julian_day(days);
             let [found_ra, found_dec] = of_date(instant, [ra, dec]);
             let turn = |hours: f64| 15.0 * 3600.0 * (hours - 24.0 * (hours / 24.0).round());
             let across = turn(found_ra - expected_ra) * expected_dec.to_radians().cos();

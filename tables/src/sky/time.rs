@@ -19,12 +19,12 @@ const MODIFIED: f64 = 2_400_000.5;
 
 /// An instant of UTC, within 0.9 s of UT1.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Instant {
+pub struct Moment {
     /// Days since J2000.
     days: f64,
 }
 
-impl Instant {
+impl Moment {
     /// Of a Julian day.
     #[must_use]
     pub fn of_julian_day(day: f64) -> Self {
@@ -64,7 +64,7 @@ impl Instant {
 /// Source: IERS Conventions (2010), equations 5.14 and 5.32: the angle of the Earth's rotation and the precession of the equinox, with the
 /// equation of the equinoxes.
 #[must_use]
-pub fn sidereal_hours(instant: Instant, longitude_deg: f64) -> f64 {
+pub fn sidereal_hours(instant: Moment, longitude_deg: f64) -> f64 {
     let t = instant.centuries_tt();
     let rotated =
         0.779_057_273_264_0 + 0.002_737_811_911_354_48 * instant.days + instant.days.rem_euclid(1.0);
@@ -82,16 +82,16 @@ mod tests {
 
     #[test]
     fn instants_are_read_as_they_are_written() {
-        let noon = Instant::of_julian_day(2_451_545.0);
+        let noon = Moment::of_julian_day(2_451_545.0);
         for text in [
             "2000-01-01T12:00:00",
             "2000-01-01 12:00:00.000Z",
             "'2000-01-01T12:00:00.00'",
             "2000/01/01 12:00:00",
         ] {
-            assert_eq!(Instant::of_text(text), Some(noon), "{text}");
+            assert_eq!(Moment::of_text(text), Some(noon), "{text}");
         }
-        assert_eq!(Instant::of_modified_julian_day(51_544.5), noon);
+        assert_eq!(Moment::of_modified_julian_day(51_544.5), noon);
         for text in [
             "",
             "2000-01-01",
@@ -100,7 +100,7 @@ mod tests {
             "12:00:00",
             "2000-01-01T12:00:00+01:00",
         ] {
-            assert_eq!(Instant::of_text(text), None, "{text}");
+            assert_eq!(Moment::of_text(text), None, "{text}");
         }
     }
 }

@@ -35,7 +35,7 @@ pub struct Study {
     /// How much memory the rows may take: `8 GiB`.
     pub memory: Option<Spanned<String>>,
     /// Where the instrument stands, for files that give a time and no place.
-    pub site: Option<Site>,
+    pub(super) site: Option<Site>,
     /// Which column is which joint or input.
     #[serde(default)]
     pub(super) columns: Table<Column>,
@@ -366,7 +366,7 @@ pub(super) struct NextTable {
 /// A place on the Earth: angles with their units, north and east positive.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Site {
+pub(super) struct Site {
     pub latitude: Spanned<String>,
     pub longitude: Spanned<String>,
 }

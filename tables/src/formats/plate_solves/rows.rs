@@ -44,8 +44,8 @@ impl Rows {
     pub fn held(&self) -> Held {
         let names: Vec<&str> = self.names.iter().map(String::as_str).collect();
         let mut held = Held::new(&self.source, &names);
-        for row in 0..self.lines.len() {
-            held.push(Some(self.lines[row]), self.cells.iter().map(|column| &column[row]));
+        for (row, line) in self.lines.iter().enumerate() {
+            held.push(Some(*line), self.cells.iter().map(|column| &column[row]));
         }
         held
     }

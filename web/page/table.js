@@ -21,13 +21,13 @@ export function openTable() {
   const listed = (answer, name) => JSON.parse(text(answer, name) || "[]");
   const paragraphs = (into, lines, of = "li") => into.replaceChildren(...lines.map((line) => Object.assign(document.createElement(of), { textContent: line })));
   // Runs work that a person may stop; buttons that would disturb it are off meanwhile.
-  const busy = async (work) => {
+  const busy = async (work, failed = trouble) => {
     const others = ["calibrate", "example", "paste", "generate"].map(at);
     others.forEach((button) => { button.disabled = true; });
     at("cancel").hidden = false;
     trouble(null);
     try { return await work(); } catch (error) {
-      if (error instanceof Stopped) tell("Stopped."); else { tell(""); trouble(error); }
+      if (error instanceof Stopped) tell("Stopped."); else { tell(""); failed(error); }
       return null;
     } finally {
       others.forEach((button) => { button.disabled = false; });
@@ -170,9 +170,10 @@ export function openTable() {
 
   const correct = async (name, bytes) => {
     at("corrected").textContent = `correcting ${name}`;
-    const answer = await busy(() => engine.ask([["do", "correct"], ["instrument", instrument], ["name", name], ["table", bytes], ["uncertainty", "yes"]]));
-    at("corrected").textContent = answer ? listed(answer, "warnings").join(" ") : "";
-    if (answer) offer(at("corrections"), [[`corrected-${name.replace(/\.[^.]*$/, "")}.csv`, answer.get("table")]], true);
+    const answer = await busy(() => engine.ask([["do", "correct"], ["instrument", instrument], ["name", name], ["table", bytes], ["uncertainty", "yes"]]), (error) => { at("corrected").textContent = `${name} was not corrected. ${error.message}`; });
+    if (!answer) return;
+    at("corrected").textContent = listed(answer, "warnings").join(" ");
+    offer(at("corrections"), [[`corrected-${name.replace(/\.[^.]*$/, "")}.csv`, answer.get("table")]], true);
   };
 
   const generate = async () => {

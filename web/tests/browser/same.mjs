@@ -2,10 +2,20 @@
 
 /** Numbers that differ by no more than this part of the larger are the same. */
 const RELATIVE = 1e-8;
-/** What an explanation gains that was not accepted is where a search for a maximum ends: its own tolerance, not the arithmetic's. */
-const OF_SEARCH = { path: /^contest\.\d+\.gain$/, relative: 1e-6 };
 /** Radians and metres below this are rounding of what is nought. */
 const ABSOLUTE = 1e-15;
+/** What the last bits decide, and how far apart it may be. */
+const OTHERS = [
+  // Explanations that were not accepted: their gain is where a search for a maximum ends.
+  { path: /^contest\.\d+\.(gain|shows|needs)$/, relative: 1e-6, absolute: 0 },
+  // A share that the declared errors absorb is what is left of one.
+  { path: /^not_shown\.\d+\.absorbed$/, relative: 0, absolute: 1e-8 },
+  // The structure that remains is looked for between nearest rows. On a grid several are equally near.
+  { path: /^remaining\.(looked\.\d+\.)?p_value$/, relative: 0, absolute: 0.05 },
+];
+
+// Explanations with equal gains stand in any order.
+const inOrder = (report) => ({ ...report, contest: [...(report.contest ?? [])].sort((a, b) => (a.name < b.name ? -1 : 1)) });
 
 /** Where two reports differ, as texts; what says when and how they were made is left out. */
 export function differences(one, other) {
@@ -13,13 +23,12 @@ export function differences(one, other) {
   const walk = (x, y, path) => {
     if (path === "provenance") return;
     if (typeof x === "number" && typeof y === "number") {
-      const apart = Math.abs(x - y);
-      const relative = OF_SEARCH.path.test(path) ? OF_SEARCH.relative : RELATIVE;
-      if (apart > ABSOLUTE && apart > relative * Math.max(Math.abs(x), Math.abs(y))) found.push(`${path}: ${x} and ${y}`);
+      const { relative, absolute } = OTHERS.find((own) => own.path.test(path)) ?? { relative: RELATIVE, absolute: ABSOLUTE };
+      if (Math.abs(x - y) > Math.max(absolute, relative * Math.max(Math.abs(x), Math.abs(y)))) found.push(`${path}: ${x} and ${y}`);
     } else if (x !== null && y !== null && typeof x === "object" && typeof y === "object") {
       for (const key of new Set([...Object.keys(x), ...Object.keys(y)])) walk(x[key], y[key], path ? `${path}.${key}` : key);
     } else if (x !== y) found.push(`${path}: ${JSON.stringify(x)} and ${JSON.stringify(y)}`);
   };
-  walk(one, other, "");
+  walk(inOrder(one), inOrder(other), "");
   return found;
 }

@@ -34,7 +34,7 @@ pub fn derive(asked: &Message, tell: Tell<'_>, warn: &dyn Fn(String)) -> Answere
     let forms = formulas::closed_forms(&chain, &[], order, warn)?;
     let shown = |style| {
         let one =
-            |form| format!("{}\n\n{}", formulas::title_of(&chain, form), print::form(form, &chain, style));
+            |form| format!("{}\n{}", formulas::title_of(&chain, form), print::form(form, &chain, style));
         forms.iter().map(one).collect::<Vec<_>>().join("\n")
     };
     Ok((true, told(shown(print::Style::Text)).with("latex", shown(print::Style::Latex))))

@@ -140,7 +140,7 @@ const steps = {
       await page.evaluate(`document.getElementById("ask-${ask}").click()`);
       await page.until(`${says}.test(document.getElementById("answer").textContent) && !document.getElementById("answer").classList.contains("wrong")`);
     }
-    await page.evaluate(`document.getElementById("ask-check").click(); document.getElementById("formula").value = ${JSON.stringify(latex.split("\n\n")[1])};
+    await page.evaluate(`document.getElementById("ask-check").click(); document.getElementById("formula").value = ${JSON.stringify(latex.split("\n\n")[0].split("\n").slice(1).join("\n"))};
       document.getElementById("formula").dispatchEvent(new Event("input"))`);
     await page.until(`document.getElementById("thinking").textContent === "The formula holds."`);
     const link = await page.evaluate("location.href");

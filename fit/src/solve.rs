@@ -7,6 +7,7 @@ use std::sync::Arc;
 use model_core::Chain;
 
 use super::align::starting_values;
+use super::descent::SCALE_SETTLED;
 use super::solver::{Course, Solver};
 use super::sweep::{Weighting, residuals};
 use super::turns::unwound;
@@ -52,7 +53,15 @@ pub fn fit_by(
     let mut solver = Solver::new(model, chain, observations, options);
     let mut course = solver.arrived()?;
     solver.take_as_they_are(&mut course)?;
+    let arrived = solver.scale(&course);
     solver.release(&mut course)?;
+    // Small errors are not what the data show.
+    let is_pulled_off = solver.scale(&course) > arrived + SCALE_SETTLED;
+    if options.other_starts
+        && (is_pulled_off || solver.has_long_errors(&course) || solver.doubtful(&course)?)
+    {
+        course = solver.from_other_homes(course)?;
+    }
     // Rows that are set aside only now leave few of them for what they now show.
     if solver.counts_in_full(&course) {
         course = solver.of_few(course)?;
@@ -146,8 +155,28 @@ impl Solver<'_> {
         let squares = self.course(&given, Weighting::Full)?;
         for start in [squares.point.values, given, self.nominal()] {
             let other = self.course(&start, self.options.weighting())?;
-            let scale = |course: &Course| self.ln_scale(&course.point.sweep.residual);
-            if scale(&other) < scale(&best) {
+            if self.scale(&other) < self.scale(&best) {
+                best = other;
+            }
+        }
+        Ok(best)
+    }
+
+    /// The best of a course and of those in which one joint counts from elsewhere.
+    fn from_other_homes(&mut self, course: Course) -> Result<Course, FitError> {
+        let mut best = course;
+        if self.observations.rows() > SAMPLE {
+            return Ok(best);
+        }
+        for start in self.other_homes() {
+            let mut other = self.course(&start, self.options.weighting())?;
+            // Another home of the same bottom says nothing more.
+            let least = self.scale(&best) - SCALE_SETTLED;
+            if other.stopped.is_some() || self.scale(&other) >= least {
+                continue;
+            }
+            self.release(&mut other)?;
+            if self.scale(&other) < least {
                 best = other;
             }
         }
@@ -160,7 +189,11 @@ impl Solver<'_> {
         let (norms, weight) = self.norms_and_weights(&course);
         let kept = self.kept_components(&weight);
         let (uncertainty, shared) = self.uncertainty(&course, &weight)?;
-        let far_off = self.is_far_off(&course).then_some(Reason::FarOff);
+        let enough = self.layout.row_of_each().filter(|&row| course.point.sweep.defined[row]).count();
+        // Where most of rows enough lie far from the rest, there is no rest.
+        let is_lost = kept <= rank + of_objects && enough > (rank + of_objects).max(2 * kept);
+        let far_off =
+            self.is_far_off(&course).then_some(Reason::FarOff).or(is_lost.then_some(Reason::NoRest));
         let Course { point, noise, subspace, stopped, .. } = course;
         let noise = Arc::new(shared.in_noise(Arc::unwrap_or_clone(noise)));
         let mut whitened = point.sweep.residual.clone();
@@ -172,8 +205,8 @@ impl Solver<'_> {
         let values = unwound(self.chain, &parameters, point.values);
         let outcome = match far_off.or(stopped) {
             // Far off all noise is none, and no row near enough to count.
-            Some(Reason::FarOff) => {
-                Outcome::NotConverged { iterations: self.iterations, reason: Reason::FarOff }
+            Some(reason @ (Reason::FarOff | Reason::NoRest)) => {
+                Outcome::NotConverged { iterations: self.iterations, reason }
             }
             _ if kept <= rank + of_objects => Outcome::TooFewObservations {
                 components: kept,

@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 
 use calibration::calibrate::Stage;
 use report::FileRead;
+use service::report_files::file_names;
 use service::{Calibrated, Made, Measured, Source, Studied};
 use tables::formats::sha256;
 
 use crate::failure::Failure;
-use crate::report_files::file_names;
 use crate::table_files::Files;
 use crate::{date, output, source, table_files, terminal};
 

@@ -18,8 +18,6 @@ mod many;
 mod output;
 mod over_table;
 mod paper;
-mod poses;
-mod ranges;
 mod report_files;
 mod set_up;
 mod sizes;

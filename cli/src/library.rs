@@ -13,16 +13,16 @@ use serde_json::{Value, json};
 use tables::formats::memory::Reader;
 use tables::formats::{self, ColumnName, DataError, TableReader, declared_columns};
 
-use crate::claims_file::ClaimsFile;
-use crate::commands::{bound, budget, check, derive, generate, identify, simulate};
-use crate::ranges::{self, Range, RangeArgument};
+use crate::claims_file;
+use crate::commands::{budget, simulate};
 use crate::table_files::{self, Files};
-use crate::{calibrating, poses, report_files, terminal};
+use crate::{calibrating, report_files, terminal};
 use claims::show::{Paint, as_json, as_text};
 use service::budget::Measured;
 use service::over_memory::{self, has_room};
+use service::ranges::{self, Range, RangeArgument};
 use service::source::observables;
-use service::{errors_file, evaluation};
+use service::{errors_file, evaluation, formulas, poses};
 
 pub use crate::calibrating::studied as read_study;
 pub use crate::draw::stretches;
@@ -119,7 +119,7 @@ pub fn generated(
     language: &str,
     names: &[String],
 ) -> Result<Vec<(&'static str, String)>, Failure> {
-    let files = generate::files(source, chain, language, names)?;
+    let files = formulas::files(source, chain, &[], language, names)?;
     Ok(files.into_iter().map(|file| (file.extension, file.text)).collect())
 }
 
@@ -128,7 +128,7 @@ pub fn generated(
 /// # Errors
 /// As `generate` says.
 pub fn loadable(source: &Source, chain: &Chain, observable: ObservableId) -> Result<Loadable, Failure> {
-    generate::loadable(source, chain, observable)
+    Ok(formulas::loadable(source, chain, observable)?)
 }
 
 /// Refuses a form that an observable has not.
@@ -175,7 +175,7 @@ pub fn closed_form(chain: &Chain, observable: ObservableId, order: u32) -> Resul
     let shown = chain.observable(observable);
     let names = shown.labels().map(|label| format!("{}_{label}", shown.name)).collect();
     let printed = [print::Style::Text, print::Style::Latex].map(|style| print::form(&form, chain, style));
-    Ok(ClosedForm { title: derive::title_of(chain, &form), names, printed, trees, text, latex })
+    Ok(ClosedForm { title: formulas::title_of(chain, &form), names, printed, trees, text, latex })
 }
 
 /// What no data can tell apart; as `identify`.
@@ -183,7 +183,7 @@ pub fn closed_form(chain: &Chain, observable: ObservableId, order: u32) -> Resul
 /// # Errors
 /// A name that the chain does not declare, or a candidate that cannot be read.
 pub fn identified(chain: &Chain, names: &[String], candidate: Option<&str>) -> Result<Told, Failure> {
-    let found = identify::identified(chain, names, candidate)?;
+    let found = formulas::identified(chain, names, candidate, &terminal::warn)?;
     Ok(Told { text: found.texts.join("\n"), json: json!({ "identifiability": found.answers }) })
 }
 
@@ -200,7 +200,7 @@ pub fn ranges(chain: &Chain, given: &[(String, String)]) -> Result<Vec<Range>, F
                 .map_err(|why: &str| Failure::Input(format!("--range {name}={bounds}: {why}")))
         })
         .collect::<Result<Vec<RangeArgument>, _>>()?;
-    ranges::of_chain(chain, &arguments)
+    Ok(ranges::of_chain(chain, &arguments, &terminal::warn)?)
 }
 
 /// Proven bounds on what the first order leaves out; as `bound`.
@@ -215,9 +215,10 @@ pub fn bounded(
     seed: u64,
 ) -> Result<Told, Failure> {
     let sizes = errors_file::largest_sizes(sizes, chain, &terminal::warn)?;
-    let answers = bound::bounds(chain, &sizes, ranges, names, seed)?;
+    let answers = formulas::bounds(chain, &sizes, ranges, names, seed, &terminal::warn)?;
     let texts = answers.iter().map(|(bound, found)| model_core::remainder::text(bound, Some(found), chain));
-    let json: Vec<Value> = answers.iter().map(|(b, found)| bound::as_json(chain, b, found)).collect();
+    let json: Vec<Value> =
+        answers.iter().map(|(b, found)| formulas::bound_as_json(chain, b, found)).collect();
     Ok(Told { text: texts.collect::<Vec<_>>().join("\n"), json: json!({ "bounds": json }) })
 }
 
@@ -236,7 +237,8 @@ pub fn budgeted(
     let sizes = errors_file::largest_sizes(sizes, chain, &terminal::warn)?;
     let poses = match path {
         Some(text) => Poses::Path(
-            poses::path(chain, text).map_err(|mistake| Source::of_text("--path", text).mistake(mistake))?,
+            poses::path(chain, text, &terminal::warn)
+                .map_err(|mistake| Source::of_text("--path", text).mistake(mistake))?,
         ),
         None => Poses::Ranges(poses::joint_ranges(ranges)),
     };
@@ -253,8 +255,8 @@ pub fn budgeted(
 /// # Errors
 /// As the command says.
 pub fn checked(claims: &Path) -> Result<Told, Failure> {
-    let file = ClaimsFile::read(claims)?;
-    let checked = check::checked(&file)?;
+    let file = claims_file::read(claims)?;
+    let checked = file.checked()?;
     let json: Vec<Value> = checked.iter().map(|checked| as_json(&file.said, checked)).collect();
     Ok(Told {
         text: plain(&as_text(&file.said, &checked, &Paint::default())),

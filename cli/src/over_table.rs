@@ -8,11 +8,12 @@ use std::time::{Duration, Instant};
 
 use model_core::Chain;
 use service::Instrument;
+use service::apply::{Layout, Place, not_finite, not_finite_warnings, numbers};
 use service::errors_file::{self, FoundOver};
 use service::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use service::readings::{ReadingsTable, Rows};
 use service::source::observables;
-use tables::formats::{Column, Kept, Options};
+use tables::formats::{Column, Options};
 
 use crate::failure::Failure;
 use crate::source::{self, Declared};
@@ -161,111 +162,34 @@ impl OverTable {
         place: Place,
         mut compute: impl FnMut(&Rows) -> Result<Vec<Column>, Failure>,
     ) -> Result<(), Failure> {
-        let is_replaced = table.replaced_by(added);
-        let order = order(&table, added, &is_replaced, place);
-        let name = |from: &Origin| match *from {
-            Origin::Input(at) => table.header()[at].full.clone(),
-            Origin::Computed(at) => added[at].clone(),
-        };
-        let header: Vec<String> = order.iter().map(name).collect();
-        let kept: Vec<Option<usize>> = order.iter().map(Origin::input).collect();
-        let mut not_finite = 0;
+        let layout = Layout::of(&table, added, place);
+        let mut infinite = 0;
         let mut done = 0_usize;
         let progress = terminal::progress();
         progress.say("reading the header");
         let table = table_files::write(&self.out, |writer| {
             // A large table is read once for the types of its texts.
-            writer.header_beside(&header, &table, &kept, |share| {
+            writer.header_beside(&layout.header, &table, &layout.kept(), |share| {
                 progress
                     .say(&format!("{:.0} % of the file read for the types of its columns", 100.0 * share));
             })?;
             let began = Instant::now();
             read_ahead(table, |rows, share_read| {
                 let computed = compute(&rows)?;
-                let is_finite = |row: &usize| {
-                    computed.iter().all(|column| match column {
-                        Column::Numbers(numbers) => numbers[*row].is_finite(),
-                        Column::Kept(_) => true,
-                    })
-                };
-                not_finite += (0..rows.count).filter(|row| !is_finite(row)).count();
-                let mut kept: Vec<Option<Kept>> = rows.kept.into_iter().map(Some).collect();
-                let mut computed: Vec<Option<Column>> = computed.into_iter().map(Some).collect();
-                let columns = order.iter().filter_map(|from| match *from {
-                    Origin::Input(at) => kept[at].take().map(Column::Kept),
-                    Origin::Computed(at) => computed[at].take(),
-                });
-                writer.rows(columns.collect(), rows.count)?;
-                done += rows.count;
+                infinite += not_finite(&computed, rows.count);
+                let count = rows.count;
+                writer.rows(layout.rows(rows.kept, computed), count)?;
+                done += count;
                 progress.say(&so_far(done as u64, share_read, began.elapsed()));
                 Ok(())
             })
         })?;
         progress.finish_and_clear();
         table.doubtful().for_each(terminal::warn);
-        table.lost(&is_replaced).iter().for_each(terminal::warn);
-        let unread = table.without_reading();
-        if unread > 0 {
-            terminal::warn(format_args!(
-                "{unread} rows take a reading from a row before or behind that the file does not have (`shift` in the study): what is computed \
-                 of them is NaN"
-            ));
-        }
-        if not_finite > unread {
-            terminal::warn(format_args!(
-                "{} rows are not finite: the chain has a pole there, or a number too large",
-                not_finite - unread
-            ));
-        }
+        table.lost(&layout.is_replaced).iter().for_each(terminal::warn);
+        not_finite_warnings(infinite, table.without_reading()).iter().for_each(terminal::warn);
         Ok(())
     }
-}
-
-/// Columns of numbers.
-pub fn numbers(columns: Vec<Vec<f64>>) -> Vec<Column> {
-    columns.into_iter().map(Column::Numbers).collect()
-}
-
-/// Where columns that are computed stand.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
-    /// Behind all of the input.
-    Behind,
-    /// Where the input has a column of their name, else behind.
-    OfTheirName,
-}
-
-/// Where a column of the output comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Origin {
-    Input(usize),
-    Computed(usize),
-}
-
-impl Origin {
-    fn input(&self) -> Option<usize> {
-        if let Self::Input(at) = self { Some(*at) } else { None }
-    }
-}
-
-/// The columns of the output in order.
-fn order(table: &ReadingsTable<'_>, added: &[String], is_replaced: &[bool], place: Place) -> Vec<Origin> {
-    let of_name = |name: &String| match place {
-        Place::Behind => None,
-        Place::OfTheirName => table.replaced_by(std::slice::from_ref(name)).iter().position(|is| *is),
-    };
-    let at: Vec<Option<usize>> = added.iter().map(of_name).collect();
-    let here = |column: usize| at.iter().position(|own| *own == Some(column)).map(Origin::Computed);
-    let columns = is_replaced.iter().enumerate().filter_map(|(column, is_replaced)| {
-        if *is_replaced { here(column) } else { Some(Origin::Input(column)) }
-    });
-    let mut all: Vec<Origin> = columns.collect();
-    for computed in (0..added.len()).map(Origin::Computed) {
-        if !all.contains(&computed) {
-            all.push(computed);
-        }
-    }
-    all
 }
 
 /// Lets `take` have all rows of a table in order, and the share of it that was read; the next ones are read while it works. Gives the

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use claims::paper::{self, Draft, Kind, MARK};
 use service::Source;
+use service::claims_file::ClaimsFile;
 
-use crate::claims_file::ClaimsFile;
 use crate::failure::Failure;
 use crate::{output, source, terminal};
 
@@ -66,7 +66,7 @@ pub fn read(
         let below = told.map(|(line, _, reason)| format!("line {line}: {reason}")).collect();
         return Err(Failure::Listed { why, below });
     }
-    Ok((ClaimsFile::of_source(source, declaration)?, draft.unread))
+    Ok((ClaimsFile::of_source(source, declaration, &terminal::warn)?, draft.unread))
 }
 
 /// The only declaration in the folder of a paper.

@@ -2,13 +2,13 @@
 
 use model_core::names::listed;
 use model_core::{ObservableId, Quantity as Measures, SymbolId, SymbolKind};
-use service::apply::{self, AsMeasured, Outside, Seen, Solver, in_vectors};
+use service::apply::{self, AsMeasured, Outside, Place, Seen, Solver, in_vectors, numbers};
 use service::evaluation::{Evaluator, Exactness, Quantity, readings_of};
 use service::source::observables;
 use tables::formats::ColumnName;
 
 use crate::failure::Failure;
-use crate::over_table::{Opened, OverTable, Place, numbers};
+use crate::over_table::{Opened, OverTable};
 use crate::terminal;
 
 /// What remains of a target is rounding below this, in rad, or in m.

@@ -5,10 +5,10 @@ use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use model_core::{Chain, Quantity, SymbolId, SymbolKind, names};
+use service::ranges::{self, Range, RangeArgument};
 use service::{Instrument, Source, errors_file};
 
 use crate::failure::Failure;
-use crate::ranges::{self, Range, RangeArgument};
 use crate::sizes::SizesArgument;
 use crate::{date, terminal};
 
@@ -111,7 +111,7 @@ impl Declared {
     /// # Errors
     /// As [`ranges::of_chain`].
     pub fn ranges(&self, arguments: &[RangeArgument]) -> Result<Vec<Range>, Failure> {
-        let mut all = ranges::of_chain(&self.chain, arguments)?;
+        let mut all = ranges::of_chain(&self.chain, arguments, &terminal::warn)?;
         for found in self.instrument.iter().flat_map(|instrument| &instrument.found) {
             let symbol = self.chain.symbol(found.symbol);
             let turns = symbol.kind == SymbolKind::Joint && symbol.quantity == Quantity::Angle;

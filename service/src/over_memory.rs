@@ -1,11 +1,18 @@
 //! Observables over tables in memory: what `eval` and `apply` compute, for a program that has no command line.
 
+use std::io;
+
 use model_core::Chain;
 use tables::formats::memory::{Column, Reader};
+use tables::formats::{self, Options};
 
-use crate::apply::{Counted, Outside};
+use crate::apply::{
+    As, AsMeasured, Beside, Correction, Counted, Layout, Outside, not_finite, not_finite_warnings,
+    write_separated,
+};
 use crate::errors_file;
 use crate::evaluation::{self, Evaluator, Exactness, Quantity};
+use crate::instrument::Instrument;
 use crate::readings::ReadingsTable;
 use crate::refusal::Refusal;
 use crate::source::Source;
@@ -94,6 +101,52 @@ pub fn outside_of_found(
     let mut outside = Outside::new(errors_file::found_over(errors, chain)?);
     counted.iter().for_each(|counted| outside.add(counted));
     Ok(outside.warning(chain))
+}
+
+/// The text of a table, the bytes of a file of this name, corrected with an instrument as `apply` writes it: separated values with every
+/// column of the table.
+///
+/// # Errors
+/// As the command says of `--data`.
+pub fn corrected(
+    instrument: &Instrument,
+    (name, bytes): (&str, &[u8]),
+    beside: Beside,
+    warn: Warn<'_>,
+) -> Result<Vec<u8>, Refusal> {
+    let chain = &instrument.chain;
+    let headings = instrument.headings.as_ref();
+    let options = headings.map_or_else(Options::default, |headings| headings.format);
+    let reader = formats::open(bytes.to_vec(), name, &options).map_err(Refusal::of)?;
+    let mut table = ReadingsTable::of(reader, chain).keeping_all();
+    if let Some(headings) = headings {
+        table = table.headed_by(headings, &[]);
+    }
+    let seen = table.source_of_study().and_then(|source| AsMeasured::of(instrument, source));
+    let mut correction = match seen {
+        Some(seen) => Correction::as_measured(instrument, seen, &mut table, beside)?,
+        None => {
+            let asked = (table.with_readings(chain, &[])?, As::Vector, false);
+            let of = (instrument.values.as_slice(), instrument.found.clone());
+            Correction::of_observables(chain, of, Some(instrument), asked, &mut table, beside)?
+        }
+    };
+    let layout = Layout::of(&table, &correction.added, correction.place);
+    let mut out = Vec::new();
+    let unwritten = |error: io::Error| Refusal::Input(error.to_string());
+    formats::write_row(&mut out, layout.header.iter().map(String::as_str)).map_err(unwritten)?;
+    let mut infinite = 0;
+    while let Some(rows) = table.next_rows()? {
+        let computed = correction.rows(&rows)?;
+        infinite += not_finite(&computed, rows.count);
+        let columns = layout.rows(rows.kept, computed);
+        write_separated(&mut out, &columns, rows.count)?.map_err(unwritten)?;
+    }
+    table.doubtful().for_each(|doubt| warn(doubt.to_string()));
+    table.lost(&layout.is_replaced).into_iter().for_each(warn);
+    not_finite_warnings(infinite, table.without_reading()).into_iter().for_each(warn);
+    correction.warning().into_iter().for_each(warn);
+    Ok(out)
 }
 
 fn over_table(

@@ -115,6 +115,18 @@ const MAY_USE: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "trueaxis-web",
+        &[
+            "trueaxis-core",
+            "trueaxis-claims",
+            "trueaxis-codegen",
+            "trueaxis-tables",
+            "trueaxis-report",
+            "trueaxis-service",
+            "trueaxis-init",
+        ],
+    ),
+    (
         "trueaxis",
         &[
             "trueaxis-core",

@@ -24,6 +24,7 @@ pub const LIBRARIES: &[&str] = &[
     "report/src",
     "service/src",
     "init/src",
+    "web/src",
 ];
 
 /// One source file: its path from the root of the workspace, with `/`, and its text.

@@ -2,12 +2,10 @@
 
 use std::path::PathBuf;
 
-use model_core::{Quantity as Measures, SymbolId};
+use model_core::{Chain, Quantity as Measures};
 use service::Instrument;
-use service::apply::{self, AsMeasured, Outside, Seen, Uncertain, in_vectors};
-use service::evaluation::{Evaluator, Exactness, Quantity, column_names};
+use service::apply::{self, AsMeasured, Beside, Correction};
 use service::readings::ReadingsTable;
-use tables::formats::{Column, Kept, Texts};
 use tables::units;
 
 use super::Answer;
@@ -18,7 +16,7 @@ use crate::failure::Failure;
 use crate::output;
 #[cfg(feature = "point-clouds")]
 use crate::over_table::Model;
-use crate::over_table::{Opened, OverTable, Place, numbers};
+use crate::over_table::{Opened, OverTable};
 use crate::{solving, table_files, terminal};
 
 /// Correct new data with a calibrated model.
@@ -168,69 +166,34 @@ fn correct(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.uncertainty && instrument.is_none() {
         return Err(no_instrument(arguments));
     }
-    if let (None, Some(instrument), Some(source)) = (arguments.form, &instrument, table.source_of_study())
-        && let Some(seen) = AsMeasured::of(instrument, source)
-        && arguments.table.observable.iter().all(|name| chain.observable(seen.observable).name == *name)
-    {
-        return correct_as_measured(arguments, instrument, &seen, table);
-    }
-    let chosen = table.with_readings(&chain, &arguments.table.observable)?;
-    let is_named = !arguments.table.observable.is_empty();
-    let seen: Vec<Seen> = chosen
-        .iter()
-        .map(|&observable| Seen::new(&chain, observable, arguments.form(), is_named))
-        .collect::<Result<_, _>>()?;
-    let evaluator = |quantity| Evaluator::new(&chain, chosen.clone(), Exactness::Exact, quantity, &values);
-    let value = evaluator(Quantity::Value);
-    let error = arguments.correction.then(|| evaluator(Quantity::Error));
-    table.want(&chain, &value.readings)?;
-    // Says if a joint has the name of a column.
-    column_names(&chain, &chosen)?;
-    let mut added: Vec<String> =
-        seen.iter().flat_map(|seen| seen.headers(&chain, arguments.correction)).collect();
-    let uncertain: Vec<Uncertain> = if arguments.uncertainty {
-        let Some(instrument) = &instrument else { unreachable!("a declaration was refused above") };
-        added.extend(seen.iter().flat_map(|seen| seen.uncertainty_headers(&chain)));
-        added.push(REGION.to_owned());
-        let of = chosen.iter().map(|&observable| Uncertain::of(instrument, &chain, observable, &values));
-        of.collect::<Result<_, _>>()?
-    } else {
-        Vec::new()
-    };
-    let mut outside = Outside::new(found);
-    arguments.table.write(table, &added, Place::Behind, |rows| {
-        let readings: Vec<(SymbolId, &[f64])> =
-            rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
-        let is_outside = outside.see(&chain, &readings, &value)?;
-        let values = value.columns(&readings, rows.count)?;
-        let errors = error.as_ref().map(|error| error.columns(&readings, rows.count)).transpose()?;
-        let (mut columns, mut beside, mut at) = (Vec::new(), Vec::new(), 0);
-        for (number, seen) in seen.iter().enumerate() {
-            let own = at..at + seen.shown(&chain);
-            at = own.end;
-            if let Some(uncertain) = uncertain.get(number) {
-                let covariance = uncertain.columns(&readings, rows.count)?;
-                beside.extend(seen.uncertainties(&values[own.clone()], &covariance));
-            }
-            columns.extend(seen.columns(&values[own.clone()], errors.as_ref().map(|errors| &errors[own])));
+    let beside = Beside { correction: arguments.correction, uncertainty: arguments.uncertainty };
+    let named = &arguments.table.observable;
+    let mut correction = match as_measured(arguments, &chain, instrument.as_ref(), &table) {
+        Some((instrument, seen)) => Correction::as_measured(instrument, seen, &mut table, beside)?,
+        None => {
+            let chosen = table.with_readings(&chain, named)?;
+            let asked = (chosen, arguments.form(), !named.is_empty());
+            let of = (values.as_slice(), found);
+            Correction::of_observables(&chain, of, instrument.as_ref(), asked, &mut table, beside)?
         }
-        columns.extend(beside);
-        let mut columns = numbers(columns);
-        columns.extend(arguments.uncertainty.then(|| region(&is_outside)));
-        Ok(columns)
-    })?;
-    outside.warning(&chain).iter().for_each(terminal::warn);
+    };
+    let (added, place) = (correction.added.clone(), correction.place);
+    arguments.table.write(table, &added, place, |rows| Ok(correction.rows(rows)?))?;
+    correction.warning().iter().for_each(terminal::warn);
     Ok(())
 }
 
-/// The column that says where a row lies.
-const REGION: &str = "measured_region";
-
-/// That column.
-fn region(is_outside: &[bool]) -> Column {
-    let mut texts = Texts::default();
-    is_outside.iter().for_each(|is_outside| texts.push(if *is_outside { "outside" } else { "inside" }));
-    Column::Kept(Kept::Texts(texts))
+/// How the data of an instrument have what was observed, unless another form or observable is asked for.
+fn as_measured<'i>(
+    arguments: &Arguments,
+    chain: &Chain,
+    instrument: Option<&'i Instrument>,
+    table: &ReadingsTable<'_>,
+) -> Option<(&'i Instrument, AsMeasured)> {
+    let instrument = instrument.filter(|_| arguments.form.is_none())?;
+    let seen = AsMeasured::of(instrument, table.source_of_study()?)?;
+    let is_asked = |name: &String| chain.observable(seen.observable).name == *name;
+    arguments.table.observable.iter().all(is_asked).then_some((instrument, seen))
 }
 
 /// Where uncertainties are asked of what has none.
@@ -239,46 +202,4 @@ fn no_instrument(arguments: &Arguments) -> Failure {
         "--uncertainty needs the covariance of an instrument file, and `{}` is a declaration: give the instrument file that `calibrate` writes",
         arguments.table.chain().display()
     ))
-}
-
-/// Writes what the instrument shows under the headings of its data, in their units and notation.
-fn correct_as_measured(
-    arguments: &Arguments,
-    instrument: &Instrument,
-    seen: &AsMeasured,
-    mut table: ReadingsTable<'static>,
-) -> Result<(), Failure> {
-    let Some((chain, values)) = in_vectors(instrument) else {
-        unreachable!("what is written as it was measured has headings")
-    };
-    let evaluator =
-        |quantity| Evaluator::new(&chain, vec![seen.observable], Exactness::Exact, quantity, &values);
-    let value = evaluator(Quantity::Value);
-    let error = (arguments.correction || seen.needs_error()).then(|| evaluator(Quantity::Error));
-    table.want(&chain, &value.readings)?;
-    let mut added = seen.headers(arguments.correction);
-    let uncertain =
-        arguments.uncertainty.then(|| Uncertain::of(instrument, &chain, seen.observable, &values));
-    let uncertain = uncertain.transpose()?;
-    if arguments.uncertainty {
-        added.extend(seen.uncertainty_headers());
-        added.push(REGION.to_owned());
-    }
-    let mut outside = Outside::new(instrument.found.clone());
-    arguments.table.write(table, &added, Place::OfTheirName, |rows| {
-        let readings: Vec<(SymbolId, &[f64])> =
-            rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
-        let is_outside = outside.see(&chain, &readings, &value)?;
-        let values = value.columns(&readings, rows.count)?;
-        let errors = error.as_ref().map(|error| error.columns(&readings, rows.count)).transpose()?;
-        let mut columns = numbers(seen.columns(&values, errors.as_deref(), arguments.correction));
-        if let Some(uncertain) = &uncertain {
-            let covariance = uncertain.columns(&readings, rows.count)?;
-            columns.extend(numbers(seen.uncertainties(&values, errors.as_deref(), &covariance)));
-            columns.push(region(&is_outside));
-        }
-        Ok(columns)
-    })?;
-    outside.warning(&chain).iter().for_each(terminal::warn);
-    Ok(())
 }

@@ -9,19 +9,20 @@ use model_core::escape::{self, Screen};
 use model_core::mistake::Mistake;
 use model_core::remainder::DomainError;
 use serde_json::{Value, json};
-use service::Source;
 use service::budget::{self, Measured, Shown, curves};
+use service::claims_file::ClaimsFile;
+use service::ranges::RangeArgument;
 use service::source::observables;
+use service::{Source, poses};
 
 use super::{Answer, TextOrJson};
 use crate::budget::{DesignerArguments, designed};
-use crate::claims_file::ClaimsFile;
+use crate::claims_file;
 use crate::expected::{self, Work};
 use crate::failure::Failure;
-use crate::ranges::RangeArgument;
 use crate::sizes::SizesArgument;
 use crate::source::Declared;
-use crate::{output, poses, terminal};
+use crate::{output, terminal};
 use claims::file::Checked;
 
 /// Measure what each error alone does, what all do together, and what tolerances come to.
@@ -77,7 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let ranges = declared.ranges(&arguments.range)?;
     let chain = declared.chain;
     let poses = match &arguments.path {
-        Some(text) => Poses::Path(poses::path(&chain, text).map_err(|mistake| {
+        Some(text) => Poses::Path(poses::path(&chain, text, &terminal::warn).map_err(|mistake| {
             let source = Source::of_text("--path", text);
             source.mistake(mistake)
         })?),
@@ -178,7 +179,7 @@ fn write_files(
     measured: &[Measured],
     folder: &Path,
 ) -> Result<(), Failure> {
-    let claims = arguments.claims.as_deref().map(ClaimsFile::read).transpose()?;
+    let claims = arguments.claims.as_deref().map(claims_file::read).transpose()?;
     let checked = claims.as_ref().map(comparisons).transpose()?;
     let shown = Shown {
         chain,

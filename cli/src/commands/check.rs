@@ -9,10 +9,11 @@ use model_core::Mistakes;
 use model_core::escape::{self, Screen};
 use proof::{Certificate, Declared, Refusal};
 use serde_json::{Value, json};
+use service::claims_file::ClaimsFile;
 
 use super::Answer;
 use crate::certificates::CertificateArguments;
-use crate::claims_file::{self, ClaimsFile};
+use crate::claims_file;
 use crate::failure::Failure;
 use crate::{paper, terminal};
 
@@ -83,7 +84,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
             )?;
             (file, notes)
         }
-        None => (ClaimsFile::read_all(&arguments.claims)?, Vec::new()),
+        None => (claims_file::read_all(&arguments.claims)?, Vec::new()),
     };
     let (checked, undecided) = file.said.check();
     let mut mistakes = file.said.mistakes();
@@ -148,18 +149,6 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     }
     let all_hold = checked.iter().all(|checked| checked.verdict.holds());
     Ok(if all_hold { Answer::Done } else { Answer::No })
-}
-
-/// Every claim of a file with its verdict.
-///
-/// # Errors
-/// A claim that has no verdict, with its place.
-pub fn checked(file: &ClaimsFile) -> Result<Vec<Checked<'_>>, Failure> {
-    let (checked, undecided) = file.said.check();
-    match undecided.into_iter().flat_map(|unread| unread.mistakes).next() {
-        None => Ok(checked),
-        Some(mistake) => Err(file.source.mistake(mistake).into()),
-    }
 }
 
 /// The verdicts as a certificate.

@@ -2,14 +2,15 @@
 
 use std::path::PathBuf;
 
-use model_core::algebra::{Fraction, Poly};
+use model_core::algebra::Fraction;
 use model_core::escape::{self, Screen};
 use model_core::forms::{self, Form, TableError};
-use model_core::{Chain, ObservableId, ObservableKind, print};
+use model_core::{Chain, ObservableId, print};
 use proof::{Certificate, Declared};
 use report::style::HEADING;
 use serde_json::json;
 use service::Source;
+use service::formulas::{closed_forms, title_of, unique_roots};
 use service::source::observables;
 
 use super::Answer;
@@ -77,23 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         }
         return show_parts(arguments, &chain, &chosen, waiting);
     }
-    let mut forms: Vec<Form> = Vec::new();
-    for &observable in &chosen {
-        match forms::derive(&chain, observable, arguments.order) {
-            Ok(form) => forms.push(form),
-            // Nobody asked for this observable in particular; the others still have an answer.
-            Err(error)
-                if error.is_of_no_closed_form() && arguments.observable.is_empty() && chosen.len() > 1 =>
-            {
-                let name = &chain.observable(observable).name;
-                terminal::warn(format_args!("{name} is left out: {error}"));
-            }
-            Err(error) => return Err(Failure::Input(error.to_string())),
-        }
-    }
-    if forms.is_empty() {
-        return Err(Failure::Input("no observable of this chain has a closed form".to_owned()));
-    }
+    let forms = closed_forms(&chain, &arguments.observable, arguments.order, &terminal::warn)?;
     let printed = match arguments.format {
         Format::Json => escape::json(&format!("{:#}\n", as_json(&chain, &forms, arguments.order))).into(),
         Format::Text => sections(&chain, &forms, print::Style::Text),
@@ -192,52 +177,6 @@ fn add_section(screen: &mut Screen, style: print::Style, title: &str, printed: &
         print::Style::Markdown => screen.append(&format!("## {}\n", escape::markdown(title)).into()),
     }
     screen.append(&format!("\n{printed}").into());
-}
-
-/// `pointing: error of the direction of device, to first order in the errors`
-pub fn title_of(chain: &Chain, form: &Form) -> String {
-    let observable = chain.observable(form.observable);
-    let kind = match observable.kind {
-        ObservableKind::Direction if observable.is_orientation() => "orientation",
-        ObservableKind::Direction => "direction",
-        ObservableKind::Point => "point",
-    };
-    let mut units: Vec<&str> = observable.shown.iter().map(|reading| reading.unit(observable.kind)).collect();
-    units.dedup();
-    let unit = match units.as_slice() {
-        ["1"] => String::new(),
-        units => format!(", in {}", units.join(" and ")),
-    };
-    let read = if observable.is_vector() {
-        String::new()
-    } else {
-        let readings: Vec<String> = observable.shown.iter().map(|reading| reading.describe()).collect();
-        format!("{} of the ", readings.join(", "))
-    };
-    let the = if observable.is_vector() { "the " } else { "" };
-    let frame = observable
-        .frame
-        .map_or(String::new(), |frame| format!(" in the frame of {}", chain.body(frame).name));
-    let roots: Vec<String> =
-        unique_roots(form).map(|root| format!("{} > 0", print::text(root, chain))).collect();
-    let place = if roots.is_empty() { String::new() } else { format!(", where {}", roots.join(" and ")) };
-    let order = ["first", "second", "third"].get(form.order as usize - 1).copied().unwrap_or("higher");
-    let body = &chain.body(observable.body).name;
-    format!(
-        "{}: error of {the}{read}{kind} of {body}{frame}, to {order} order in the errors{unit}{place}",
-        observable.name
-    )
-}
-
-/// What has to be positive for a form to be right, each once.
-fn unique_roots(form: &Form) -> impl Iterator<Item = &Poly> {
-    let roots: Vec<&Poly> = form.positive.iter().flatten().collect();
-    roots
-        .clone()
-        .into_iter()
-        .enumerate()
-        .filter(move |(at, root)| !roots[..*at].contains(root))
-        .map(|(_, root)| root)
 }
 
 fn as_json(chain: &Chain, forms: &[Form], order: u32) -> serde_json::Value {

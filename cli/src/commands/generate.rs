@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum as _;
-use codegen::{Form, GenerateError, Precision, Unit};
+use codegen::{Form, Precision, Unit};
 use model_core::remainder::{self, Domain};
 use model_core::{Chain, ObservableId, SymbolKind};
+use service::formulas::EVERY_FORM;
 use service::source::observables;
-use service::{Source, errors_file};
+use service::{Refusal, errors_file};
 
 use super::Answer;
 use crate::expected::{self, Work};
@@ -15,7 +15,6 @@ use crate::failure::Failure;
 use crate::sizes::SizesArgument;
 use crate::source::Declared;
 use crate::{output, source, terminal};
-use model_core::names::listed;
 
 /// Generate evaluators in another language.
 ///
@@ -143,7 +142,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         (None, None) => Vec::new(),
     };
     let forms = match arguments.only.as_slice() {
-        [] => every_form(),
+        [] => EVERY_FORM.to_vec(),
         only => only.iter().map(|&form| form.into()).collect(),
     };
     let unit = Unit {
@@ -154,7 +153,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         ..Unit::new(&chain, &source.text, &chosen, &forms)
     };
     let name = arguments.out.file_stem().unwrap_or_default().to_string_lossy();
-    let files = codegen::generate(&unit, arguments.language.into(), &name).map_err(refused)?;
+    let files = codegen::generate(&unit, arguments.language.into(), &name).map_err(Refusal::of)?;
     drop(waiting);
     if arguments.out == Path::new("-") && files.len() > 1 {
         let message =
@@ -181,54 +180,6 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     }
     batch.finish()?;
     Ok(Answer::Done)
-}
-
-fn every_form() -> Vec<Form> {
-    FormName::value_variants().iter().map(|&form| form.into()).collect()
-}
-
-fn refused(error: GenerateError) -> Failure {
-    Failure::Input(error.to_string())
-}
-
-/// The files that the command writes into a folder where the first is called by the chain's name, with every form of some
-/// observables, or of all.
-pub(crate) fn files(
-    source: &Source,
-    chain: &Chain,
-    language: &str,
-    names: &[String],
-) -> Result<Vec<codegen::File>, Failure> {
-    let language = language_of(language)?;
-    let (chosen, forms) = (observables(chain, names)?, every_form());
-    let unit = Unit::new(chain, &source.text, &chosen, &forms);
-    codegen::generate(&unit, language, &codegen::snake_case(&chain.name)).map_err(refused)
-}
-
-/// A language by its name.
-fn language_of(name: &str) -> Result<codegen::Language, Failure> {
-    let names = || codegen::LANGUAGES.iter().map(|&(name, _)| name);
-    if let Some(&(_, language)) = codegen::LANGUAGES.iter().find(|&&(known, _)| known == name) {
-        return Ok(language);
-    }
-    let instead = match model_core::names::nearest(name, names()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("write one of {}", listed(names())),
-    };
-    Err(Failure::Input(format!("there is no language `{name}`; {instead}")))
-}
-
-/// One observable in C that can be loaded, with every form that it has.
-pub(crate) fn loadable(
-    source: &Source,
-    chain: &Chain,
-    observable: ObservableId,
-) -> Result<codegen::Loadable, Failure> {
-    let mut forms = every_form();
-    forms.retain(|&form| codegen::derivable(chain.observable(observable), form).is_ok());
-    let chosen = [observable];
-    // A plain name: that of a chain may hold letters that a file system does not take.
-    codegen::generate_loadable(&Unit::new(chain, &source.text, &chosen, &forms), "chain").map_err(refused)
 }
 
 /// The box of errors that a generated file speaks of, and what is proven of the first order there; nothing for observables

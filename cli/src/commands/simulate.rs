@@ -9,13 +9,13 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 use service::errors_file;
 use service::evaluation::{Evaluator, Exactness, Quantity, column_names};
+use service::ranges::{self, Range, RangeArgument};
 use service::source::observables;
 use tables::formats::{Column, ColumnName};
 use tables::units::{Amount, Plausible};
 
 use super::Answer;
 use crate::failure::Failure;
-use crate::ranges::{self, Range, RangeArgument};
 use crate::{output, source, table_files, terminal};
 use model_core::names::listed;
 
@@ -72,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     output::refuse_to_replace(&arguments.out, [arguments.chain.as_path(), &arguments.errors])?;
     let chain = source::chain(&arguments.chain)?;
     let values = errors_file::values(&source::read(&arguments.errors)?, &chain, &terminal::warn)?;
-    let given = ranges::of_chain(&chain, &arguments.range)?;
+    let given = ranges::of_chain(&chain, &arguments.range, &terminal::warn)?;
     let mut simulation =
         Simulation::new(&chain, &values, &arguments.noise, &arguments.observable, &given, arguments.seed)?;
     table_files::write(&arguments.out, |writer| {

@@ -3,12 +3,13 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use service::apply::write_separated;
 use service::readings::ReadingsTable;
-use tables::formats::{self, Column, Written};
+use tables::formats::{self, Column};
 #[cfg(feature = "parquet")]
 use tables::formats::{Options, parquet};
 
-use super::{failure, known_format};
+use super::known_format;
 use crate::failure::Failure;
 use crate::output;
 
@@ -112,17 +113,8 @@ impl TableWriter<'_> {
     pub fn rows(&mut self, rows: Vec<Column>, count: usize) -> Result<(), Failure> {
         match self {
             Self::Csv { path, file } => {
-                let texts = rows.iter().map(|column| match column {
-                    Column::Kept(kept) => kept.texts().map(Some).map_err(failure),
-                    Column::Numbers(_) => Ok(None),
-                });
-                let texts = texts.collect::<Result<Vec<_>, _>>()?;
-                let written = rows.iter().zip(&texts).map(|(column, texts)| match (column, texts) {
-                    (Column::Numbers(numbers), _) => Written::Numbers(numbers),
-                    (Column::Kept(_), Some(texts)) => Written::Texts(texts),
-                    (Column::Kept(_), None) => unreachable!("kept cells have texts"),
-                });
-                csv_rows(*file, path, &written.collect::<Vec<_>>(), count)
+                let written = write_separated(*file, &rows, count)?;
+                written.map_err(|error| Failure::write(path, &error))
             }
             #[cfg(feature = "parquet")]
             Self::Parquet { path, file, writer } => {
@@ -161,12 +153,4 @@ fn csv_row<'c>(
     cells: impl IntoIterator<Item = &'c str>,
 ) -> Result<(), Failure> {
     formats::write_row(file, cells).map_err(|error: io::Error| Failure::write(path, &error))
-}
-
-/// Writes rows of columns as separated values into the file of a name.
-///
-/// # Errors
-/// The place cannot be written.
-fn csv_rows(file: &mut dyn Write, path: &Path, columns: &[Written<'_>], rows: usize) -> Result<(), Failure> {
-    formats::write_rows(file, columns, rows).map_err(|error| Failure::write(path, &error))
 }

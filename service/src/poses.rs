@@ -9,13 +9,14 @@ use model_core::unit::Measures;
 use model_core::{Chain, Mistake, Quantity, SymbolKind, names, syntax};
 use tables::units::{Amount, Plausible};
 
-use crate::terminal;
+use crate::ranges;
+use crate::warn::Warn;
 
-/// Reads a path: joints and inputs as amounts in `t`, or as quantities with a unit.
+/// Reads a path: joints and inputs as amounts in `t`, or as quantities with a unit; warns of what is doubtful of them.
 ///
 /// # Errors
 /// What is wrong, with its place in the text.
-pub fn path(chain: &Chain, text: &str) -> Result<Path, Mistake<Range<usize>>> {
+pub fn path(chain: &Chain, text: &str, warn: Warn<'_>) -> Result<Path, Mistake<Range<usize>>> {
     let mut path = Path::default();
     let mut start = 0;
     for part in text.split(',') {
@@ -29,7 +30,7 @@ pub fn path(chain: &Chain, text: &str) -> Result<Path, Mistake<Range<usize>>> {
         let amount_place = trimmed(amount, place.start + name.len() + 1);
         let name_place = trimmed(name, place.start);
         let name = &text[name_place.clone()];
-        let expression = amount_in_t(chain, name, text, amount_place)?;
+        let expression = amount_in_t(chain, name, text, amount_place, warn)?;
         path.assign(chain, name, &expression).map_err(|error| match &error {
             PathError::NotMovable(_) => not_movable(chain, name, name_place),
             PathError::Twice(_) => Mistake::new(name_place, error.to_string()),
@@ -46,6 +47,7 @@ fn amount_in_t(
     name: &str,
     text: &str,
     place: Range<usize>,
+    warn: Warn<'_>,
 ) -> Result<Expr<Range<usize>>, Mistake<Range<usize>>> {
     let amount = &text[place.clone()];
     let quantity = chain.find_symbol(name).map_or(Quantity::Number, |id| chain.symbol(id).quantity);
@@ -53,7 +55,7 @@ fn amount_in_t(
         let plausible = Plausible::readings(chain, symbol);
         let meant = |unit: &str| format!("{name}={amount} {unit}");
         let doubt = plausible.doubt(quantity, &[written], &format!("{name}={amount}"), meant);
-        doubt.iter().for_each(terminal::warn);
+        doubt.into_iter().for_each(|doubt| warn(doubt.to_string()));
         let value = written
             .to_si(Measures::of(chain.symbol(symbol)))
             .map_err(|error| Mistake::new(place.clone(), error.to_string()))?;
@@ -97,6 +99,7 @@ fn trimmed(text: &str, start: usize) -> Range<usize> {
 }
 
 /// Ranges as the budget takes them.
-pub fn joint_ranges(ranges: &[crate::ranges::Range]) -> Vec<JointRange> {
+#[must_use]
+pub fn joint_ranges(ranges: &[ranges::Range]) -> Vec<JointRange> {
     ranges.iter().map(|range| JointRange { symbol: range.symbol, low: range.low, high: range.high }).collect()
 }

@@ -1,14 +1,14 @@
-//! Ranges of joints and inputs on the command line: `--range "elevation=10 deg..80 deg"`.
+//! Ranges of joints and inputs as users write them: `elevation=10 deg..80 deg`.
 
 use model_core::unit::Measures;
 use model_core::{Chain, SymbolId, SymbolKind, names};
 use tables::units::{Amount, Plausible};
 
-use crate::failure::Failure;
-use crate::terminal;
+use crate::refusal::Refusal;
+use crate::warn::Warn;
 use model_core::names::listed;
 
-/// One `--range` as typed.
+/// A range as typed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RangeArgument {
     name: String,
@@ -48,18 +48,18 @@ pub struct Range {
     pub high: f64,
 }
 
-/// The ranges that were typed, for the joints and inputs of a chain.
+/// The ranges that were typed, for the joints and inputs of a chain; warns of what is doubtful of them.
 ///
 /// # Errors
 /// A name that is no joint or input, a bound that is no quantity of its unit, bounds the wrong way round, a
 /// name given twice.
-pub fn of_chain(chain: &Chain, arguments: &[RangeArgument]) -> Result<Vec<Range>, Failure> {
+pub fn of_chain(chain: &Chain, arguments: &[RangeArgument], warn: Warn<'_>) -> Result<Vec<Range>, Refusal> {
     let mut ranges: Vec<Range> = Vec::new();
     for argument in arguments {
-        let range = read(chain, argument)
-            .map_err(|why| Failure::Input(format!("--range {}: {why}", argument.name)))?;
+        let range = read(chain, argument, warn)
+            .map_err(|why| Refusal::Input(format!("--range {}: {why}", argument.name)))?;
         if ranges.iter().any(|earlier| earlier.symbol == range.symbol) {
-            return Err(Failure::Input(format!("`--range {}=…` is given twice", argument.name)));
+            return Err(Refusal::Input(format!("`--range {}=…` is given twice", argument.name)));
         }
         ranges.push(range);
     }
@@ -70,7 +70,7 @@ pub fn of_chain(chain: &Chain, arguments: &[RangeArgument]) -> Result<Vec<Range>
 ///
 /// # Errors
 /// As [`of_chain`], in words.
-pub fn read(chain: &Chain, argument: &RangeArgument) -> Result<Range, String> {
+pub fn read(chain: &Chain, argument: &RangeArgument, warn: Warn<'_>) -> Result<Range, String> {
     let RangeArgument { name, low, high } = argument;
     let symbol = movable(chain).find(|&id| chain.symbol(id).name == *name).ok_or_else(|| {
         let declared = || movable(chain).map(|id| chain.symbol(id).name.as_str());
@@ -89,7 +89,10 @@ pub fn read(chain: &Chain, argument: &RangeArgument) -> Result<Range, String> {
     let plausible = Plausible::readings(chain, symbol);
     let written = format!("--range {name}={low}..{high}");
     let meant = |unit: &str| format!("\"{name}={low}..{high} {unit}\"");
-    plausible.doubt(quantity, &[lower, upper], &written, meant).iter().for_each(terminal::warn);
+    plausible
+        .doubt(quantity, &[lower, upper], &written, meant)
+        .into_iter()
+        .for_each(|doubt| warn(doubt.to_string()));
     let high = upper.to_si(measures).map_err(|why| wrong(high, &why))?;
     let low = lower.to_si(measures).map_err(|why| wrong(low, &why))?;
     if low > high {

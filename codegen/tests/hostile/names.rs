@@ -6,7 +6,7 @@ use model_core::{Chain, ObservableId};
 use super::{FORMS, compiles, folder};
 
 /// Errors with these names.
-const NAMES: [&str; 39] = [
+const NAMES: [&str; 46] = [
     "NULL",
     "_Bool",
     "_Complex",
@@ -46,6 +46,13 @@ const NAMES: [&str; 39] = [
     "e\u{301}",
     "ﬁ",
     "fi",
+    "end",
+    "endfunction",
+    "Joints",
+    "Span",
+    "_a",
+    "a_name_that_is_longer_than_any_that_a_language_of_matrices_takes_1",
+    "a_name_that_is_longer_than_any_that_a_language_of_matrices_takes_2",
 ];
 
 #[test]

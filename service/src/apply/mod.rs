@@ -7,7 +7,7 @@ mod solve;
 mod uncertain;
 
 pub use as_measured::{AsMeasured, in_vectors};
-pub use found::{Counted, Outside};
+pub use found::{Counted, Outside, region};
 pub use seen::{As, Seen};
 pub use solve::Solver;
 pub(crate) use solve::distance;

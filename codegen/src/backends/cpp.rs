@@ -104,7 +104,7 @@ impl File<'_> {
         self.columns(&camel_case(group.singular()), "const double", &about, &fields)
     }
 
-    /// A structure of spans.
+    /// A structure of spans. No name of a declaration begins as those of its functions.
     fn columns(&self, kind: &str, of: &str, about: &str, fields: &[Field]) -> String {
         let (prefix, c_name) = (&self.prefix, snake_case(kind));
         let declare = |(name, shape, about): &Field| {
@@ -114,21 +114,21 @@ impl File<'_> {
         let each = |of: &dyn Fn(&str) -> String, between: &str| {
             fields.iter().map(|(name, ..)| of(name)).collect::<Vec<_>>().join(between)
         };
-        let have =
-            each(&|name| format!("::trueaxis::detail::have_length({name}, rows)"), "\n            && ");
-        let point = each(&|name| format!("        ::trueaxis::detail::point({name}, to.{name});"), "\n");
+        let have = |name: &str| format!("::trueaxis::detail::have_length(this->{name}, rows)");
+        let point = |name: &str| format!("        ::trueaxis::detail::point(this->{name}, to.{name});");
+        let (have, point) = (each(&have, "\n            && "), each(&point, "\n"));
         format!(
             "
 // {about}
 struct {kind}Rows {{
 {declared}
     // Whether every column has so many rows.
-    [[nodiscard]] bool have_length(::std::size_t rows) const noexcept {{
+    [[nodiscard]] bool TRUEAXIS_have_length(::std::size_t rows) const noexcept {{
         return {have};
     }}
 
     // The same as C takes it.
-    [[nodiscard]] ::{prefix}_{c_name}_rows pointers() const noexcept {{
+    [[nodiscard]] ::{prefix}_{c_name}_rows TRUEAXIS_pointers() const noexcept {{
         ::{prefix}_{c_name}_rows to;
 {point}
         return to;
@@ -171,19 +171,20 @@ struct {kind}Rows {{
         if let (true, Some(first)) = (self.shared.has_rows(), self.shared.pose.first()) {
             let rows = self.parameters("Rows");
             let counted = first.symbols.first().map_or("", |&id| self.names.symbol(id));
-            let have = each(&|argument| format!("{argument}.have_length(count) && "));
+            let have = each(&|argument| format!("{argument}.TRUEAXIS_have_length(count) && "));
             let passed = each(&|argument| format!("&{argument}_of_c, "));
-            let point =
-                |argument: &str| format!("        const auto {argument}_of_c = {argument}.pointers();\n");
+            let point = |argument: &str| {
+                format!("        const auto {argument}_of_c = {argument}.TRUEAXIS_pointers();\n")
+            };
             let point = each(&point);
             methods.push_str(&format!(
                 "
     // Many poses; false, and nothing is written, where columns are not equally long. Columns must not overlap.
     [[nodiscard]] bool rows({rows}, const {result}Rows& out) const noexcept {{
         const ::std::size_t count = {}.{counted}.size();
-        if (!({have}out.have_length(count)))
+        if (!({have}out.TRUEAXIS_have_length(count)))
             return false;
-{point}        const auto out_of_c = out.pointers();
+{point}        const auto out_of_c = out.TRUEAXIS_pointers();
         ::{prefix}_{form}_rows(&prepared_, count, {passed}&out_of_c);
         return true;
     }}

@@ -72,12 +72,15 @@ fn names_of_every_kind_compile() {
             observe value: direction(0, 1, 0) of table;
             observe new: direction(1, 0, 0) of table;
             observe __proto__: direction(1, 1, 0) of table;
+            observe rows: direction(1, 1, 0) of table;
+            observe to: direction(1, 1, 0) of table;
+            observe TRUEAXIS_pointers: direction(1, 1, 0) of table;
         }}",
         factors.join(", ")
     );
     let chain =
         Chain::from_text(&text).unwrap_or_else(|mistakes| panic!("{}", mistakes.render("names", &text)));
-    let observables: Vec<ObservableId> = (0..5).map(ObservableId).collect();
+    let observables: Vec<ObservableId> = (0..8).map(ObservableId).collect();
     compiles(&Unit::new(&chain, &text, &observables, &FORMS), &folder("names"));
 }
 

@@ -127,7 +127,6 @@ struct {kind}Rows {{
         return {have};
     }}
 
-    // The same as C takes it.
     [[nodiscard]] ::{prefix}_{c_name}_rows TRUEAXIS_pointers() const noexcept {{
         ::{prefix}_{c_name}_rows to;
 {point}

@@ -63,7 +63,8 @@ fn check(printed: &str) {
 fn write(language: Language, folder: &Path) {
     let chain = Chain::from_text(ARM).unwrap();
     let observables = [model_core::ObservableId(0), model_core::ObservableId(1)];
-    let unit = Unit::new(&chain, ARM, &observables, &[Form::ExactValue, Form::ExactError]);
+    let forms = [Form::ExactValue, Form::ExactError, Form::ExactJacobian];
+    let unit = Unit::new(&chain, ARM, &observables, &forms);
     for file in generate(&unit, language, "arm").unwrap() {
         fs::write(folder.join(format!("arm.{}", file.extension)), file.text).unwrap();
     }
@@ -149,6 +150,16 @@ for name in ['tip', 'axis']:
     by, remaining = each(joints)
     for row in zip(*by, remaining):
         print(*(repr(float(number)) for number in row))
+
+pose = arm.Joints(0.3, -0.5, 0.2)
+exact = lambda errors: arm.exact_value(arm.prepare_exact_value(errors), pose)
+jacobian = jax.jit(arm.exact_jacobian)(arm.prepare_exact_jacobian(errors), pose)
+for own, derived in zip(jacobian, jax.jacfwd(exact)(errors)):
+    for column, derivative in enumerate(derived):
+        assert jnp.abs(own[:, column] - derivative).max() < 1e-14, (column, own, derivative)
+gradient = jax.grad(lambda errors: exact(errors).tip[1])(errors)
+for column, derivative in enumerate(gradient):
+    assert abs(jacobian.tip[1, column] - derivative) < 1e-14
 ",
         errors(&|name, value| format!("{name}={value:?}, ")),
         column(0),

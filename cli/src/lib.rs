@@ -23,6 +23,7 @@ mod ranges;
 mod report_files;
 mod set_up;
 mod sizes;
+mod solving;
 mod source;
 mod streaming;
 mod table_files;

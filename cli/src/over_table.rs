@@ -204,9 +204,17 @@ impl OverTable {
         progress.finish_and_clear();
         table.doubtful().for_each(terminal::warn);
         table.lost(&is_replaced).iter().for_each(terminal::warn);
-        if not_finite > 0 {
+        let unread = table.without_reading();
+        if unread > 0 {
             terminal::warn(format_args!(
-                "{not_finite} rows are not finite: the chain has a pole there, or a number too large"
+                "{unread} rows take a reading from a row before or behind that the file does not have (`shift` in the study): what is computed \
+                 of them is NaN"
+            ));
+        }
+        if not_finite > unread {
+            terminal::warn(format_args!(
+                "{} rows are not finite: the chain has a pole there, or a number too large",
+                not_finite - unread
             ));
         }
         Ok(())

@@ -12,9 +12,9 @@ pub mod program;
 pub mod vector;
 
 pub use backends::{
-    File, GenerateError, LANGUAGES, Language, Loadable, Precision, Unit, derivable, form_name, generate,
-    generate_loadable, snake_case,
+    Calibrated, File, GenerateError, LANGUAGES, Language, Loadable, Precision, Unit, derivable, form_name,
+    generate, generate_loadable, snake_case,
 };
-pub use build::{MatrixProduct, build, build_all, matrix_product};
+pub use build::{Covariance, MatrixProduct, Measured, build, build_all, build_uncertainty, matrix_product};
 pub use interpreter::{Interpreter, ShapeError};
 pub use program::{Counts, Form, Layout, NodeId, Op, Program, Stage};

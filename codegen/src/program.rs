@@ -135,6 +135,8 @@ pub enum Form {
     /// Derivatives of the exact value where every error is zero: as many rows, a column for each symbol. With
     /// respect to an error these are the coefficients of the first-order error.
     FirstOrderJacobian,
+    /// The standard uncertainty of each number of the exact value, by the covariance of estimates at the errors given.
+    Uncertainty,
 }
 
 impl Form {

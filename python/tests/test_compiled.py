@@ -400,8 +400,12 @@ def test_the_compiler_of_the_environment_and_what_is_left(tmp_path, monkeypatch)
 def test_generated_files_are_those_of_the_command(scanner):
     files = scanner.generate("c", "pointing")
     assert list(files) == ["c", "h"] and '#include "mobile_lidar.h"' in files["c"]
-    assert {language: list(scanner.generate(language)) for language in ("rust", "numpy", "javascript", "latex")} == {
+    languages = ("rust", "cpp", "numpy", "jax", "javascript", "matlab", "latex")
+    assert {language: list(scanner.generate(language)) for language in languages} == {
         "rust": ["rs"],
+        "cpp": ["cpp", "hpp", "h"],
+        "jax": ["py"],
+        "matlab": ["m"],
         "numpy": ["py"],
         "javascript": ["js"],
         "latex": ["tex"],

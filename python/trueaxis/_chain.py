@@ -184,15 +184,15 @@ class Chain(OverArrays):
 
     def generate(
         self,
-        language: Literal["rust", "c", "latex", "numpy", "javascript"],
+        language: Literal["rust", "c", "cpp", "latex", "numpy", "javascript", "matlab", "jax"],
         observables: str | Iterable[str] | None = None,
     ) -> dict[str, str]:
         """Evaluators in another language, as ``trueaxis generate`` writes them: functions for the value, the exact error, the
-        first-order error and both Jacobians, for one pose and (Rust and C) for arrays of poses; rad and m.
+        first-order error and both Jacobians, for one pose and for arrays of poses; rad and m.
 
         :param observables: which; every one where none is given.
-        :returns: the text of each file by its ending: ``{"c": ..., "h": ...}``. C includes its header by the chain's name,
-            ``MobileLidar`` as ``mobile_lidar.h``.
+        :returns: the text of each file by its ending: ``{"c": ..., "h": ...}``. C and C++ include their headers by the chain's name,
+            ``MobileLidar`` as ``mobile_lidar.h``; the file of MATLAB is called so, too.
         """
         return dict(self._native.generate(text_of("language", language), names(observables)))
 

@@ -18,4 +18,4 @@ pub use random::{Random, Xorshift};
 pub use rotations::{rotation, turned};
 pub use scanner::Stand;
 pub use skipped::last_line;
-pub use tools::{BASH, BROWSER, COQ, NODE, NUMPY, PYTHON, SYMPY, Tool, tool};
+pub use tools::{BASH, BROWSER, COQ, CXX, JAX, NODE, NUMPY, OCTAVE, PYTHON, SYMPY, Tool, tool};

@@ -40,6 +40,23 @@ pub const PYTHON: Tool =
 /// Runs generated NumPy.
 pub const NUMPY: Tool =
     Tool { name: "numpy", programs: PYTHONS, works: &["-c", "import numpy"], install: "pip install numpy" };
+/// Runs generated JAX.
+pub const JAX: Tool =
+    Tool { name: "jax", programs: PYTHONS, works: &["-c", "import jax"], install: "pip install 'jax[cpu]'" };
+/// Runs generated MATLAB.
+pub const OCTAVE: Tool = Tool {
+    name: "octave",
+    programs: &["octave-cli", "octave"],
+    works: &["--version"],
+    install: "apt-get install octave",
+};
+/// Compiles generated C++.
+pub const CXX: Tool = Tool {
+    name: "c++",
+    programs: &["c++", "g++", "clang++"],
+    works: &["--version"],
+    install: "apt-get install g++",
+};
 /// Derives the formulas of the gallery.
 pub const SYMPY: Tool =
     Tool { name: "sympy", programs: PYTHONS, works: &["-c", "import sympy"], install: "pip install sympy" };

@@ -2,25 +2,30 @@
 
 use std::path::{Path, PathBuf};
 
-use codegen::{Form, Precision, Unit};
+use codegen::{Calibrated, Covariance, Form, Precision, Unit};
 use model_core::remainder::{self, Domain};
 use model_core::{Chain, ObservableId, SymbolKind};
+use service::apply::region;
 use service::formulas::EVERY_FORM;
 use service::source::observables;
-use service::{Refusal, errors_file};
+use service::{Instrument, Refusal, errors_file};
 
 use super::Answer;
 use crate::expected::{self, Work};
 use crate::failure::Failure;
 use crate::sizes::SizesArgument;
 use crate::source::Declared;
-use crate::{output, source, terminal};
+use crate::{date, output, source, terminal};
 
 /// Generate evaluators in another language.
 ///
 /// Writes functions for the value, the exact error, the first-order error and both Jacobians of the observables, for
 /// one pose and for arrays of poses; what depends on the errors alone is prepared once. The file needs nothing but
-/// its language. With --sizes it states them, and how far the first order can be off there.
+/// its language, and JAX or NumPy where these are asked for. With --sizes it states them, and how far the first order can
+/// be off there.
+///
+/// Of an instrument file it also writes the standard uncertainty of the observables and the last day on which the calibration
+/// counts. Another function says whether a pose lies in the measured region.
 ///
 /// Example: trueaxis generate examples/mobile-lidar/mobile-lidar.chain --language rust --observable pointing
 /// --out mobile_lidar.rs
@@ -49,6 +54,9 @@ pub struct Arguments {
     values: Option<PathBuf>,
     #[command(flatten)]
     sizes: SizesArgument,
+    /// Refuse an instrument file whose last day is over or that names none; default: warn of a day that is over
+    #[arg(long)]
+    valid: bool,
     /// Where to write; what belongs beside it (a header) goes into the same folder; - is standard output
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
@@ -61,12 +69,18 @@ enum Language {
     Rust,
     /// C99, with its header
     C,
+    /// C++17: the source of C, with headers
+    Cpp,
     /// Equations, to be included in a document
     Latex,
     /// Python with NumPy
     Numpy,
     /// A JavaScript module
     Javascript,
+    /// A function file of MATLAB and Octave
+    Matlab,
+    /// Python with JAX
+    Jax,
 }
 
 impl From<Language> for codegen::Language {
@@ -74,9 +88,12 @@ impl From<Language> for codegen::Language {
         match language {
             Language::Rust => Self::Rust,
             Language::C => Self::C,
+            Language::Cpp => Self::Cpp,
             Language::Latex => Self::Latex,
             Language::Numpy => Self::Numpy,
             Language::Javascript => Self::Javascript,
+            Language::Matlab => Self::Matlab,
+            Language::Jax => Self::Jax,
         }
     }
 }
@@ -86,7 +103,7 @@ impl From<Language> for codegen::Language {
 enum PrecisionName {
     /// Double
     F64,
-    /// Single, for processors that have no double (Rust and C, functions of one pose)
+    /// Single, for processors that have no double (Rust, C and C++, functions of one pose)
     F32,
 }
 
@@ -112,6 +129,8 @@ enum FormName {
     ExactJacobian,
     /// Derivatives by the errors, where these are zero
     FirstOrderJacobian,
+    /// Standard uncertainty of the observables, by the covariance of an instrument file
+    Uncertainty,
 }
 
 impl From<FormName> for Form {
@@ -122,6 +141,7 @@ impl From<FormName> for Form {
             FormName::FirstOrderError => Self::FirstOrderError,
             FormName::ExactJacobian => Self::ExactJacobian,
             FormName::FirstOrderJacobian => Self::FirstOrderJacobian,
+            FormName::Uncertainty => Self::Uncertainty,
         }
     }
 }
@@ -136,13 +156,33 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         Some(path) => remarks(&chain, &chosen, path)?,
         None => Vec::new(),
     };
-    let values = match (&arguments.values, instrument) {
+    if arguments.valid {
+        refuse_invalid(&arguments.chain, instrument.as_ref())?;
+    }
+    let values = match (&arguments.values, &instrument) {
         (Some(path), _) => errors_file::named_values(&source::read(path)?, &chain, &terminal::warn)?,
-        (None, Some(instrument)) => instrument.named,
+        (None, Some(instrument)) => instrument.named.clone(),
         (None, None) => Vec::new(),
     };
+    // Other values than the calibration's are as sure as nobody knows.
+    let calibration = instrument.as_ref().filter(|_| arguments.values.is_none());
+    let region = calibration.map(|instrument| region(instrument, &chosen)).transpose()?.unwrap_or_default();
+    let covariance = calibration.and_then(|instrument| instrument.covariance.as_ref());
+    let calibrated = Calibrated {
+        covariance: covariance.map(|known| Covariance { of: &known.of, rows: &known.rows }),
+        region: &region,
+        valid_until: calibration.and_then(|instrument| instrument.valid_until.as_deref()),
+    };
     let forms = match arguments.only.as_slice() {
-        [] => EVERY_FORM.to_vec(),
+        [] => {
+            let mut forms = EVERY_FORM.to_vec();
+            let has_derivatives =
+                chosen.iter().all(|&id| codegen::derivable(chain.observable(id), Form::Uncertainty).is_ok());
+            if covariance.is_some() && arguments.precision == PrecisionName::F64 && has_derivatives {
+                forms.push(Form::Uncertainty);
+            }
+            forms
+        }
         only => only.iter().map(|&form| form.into()).collect(),
     };
     let unit = Unit {
@@ -150,6 +190,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         rows: !arguments.no_rows,
         precision: arguments.precision.into(),
         remarks: &remarks,
+        calibrated,
         ..Unit::new(&chain, &source.text, &chosen, &forms)
     };
     let name = arguments.out.file_stem().unwrap_or_default().to_string_lossy();
@@ -180,6 +221,25 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     }
     batch.finish()?;
     Ok(Answer::Done)
+}
+
+/// Refuses what is no calibration, or none that counts today.
+fn refuse_invalid(path: &Path, instrument: Option<&Instrument>) -> Result<(), Failure> {
+    let file = path.display();
+    let Some(instrument) = instrument else {
+        return Err(Failure::Input(format!(
+            "--valid asks for an instrument file, and `{file}` is a declaration"
+        )));
+    };
+    if instrument.valid_until.is_none() {
+        return Err(Failure::Input(format!(
+            "`{file}` does not say until when it is valid: write its last day, as valid-until = 2027-06-30, or leave --valid out"
+        )));
+    }
+    match instrument.expired(&date::today()) {
+        Some(why) => Err(Failure::Input(why)),
+        None => Ok(()),
+    }
 }
 
 /// The box of errors that a generated file speaks of, and what is proven of the first order there; nothing for observables

@@ -81,7 +81,7 @@ fn single_precision_has_no_double() {
     let out = out.to_str().expect("UTF-8");
     refused(
         &["--language", "numpy", "--precision", "f32", "--out", out],
-        "single precision is written in Rust and C only",
+        "single precision is written in Rust, C and C++ only",
     );
 }
 

@@ -86,9 +86,16 @@ pub fn outside_of_comments(text: &str) -> String {
 #[test]
 fn generated_files() {
     let folder = folder("hostile-generated");
-    for (language, file) in
-        [("rust", "w.rs"), ("c", "w.c"), ("latex", "w.tex"), ("numpy", "w.py"), ("javascript", "w.js")]
-    {
+    for (language, file) in [
+        ("rust", "w.rs"),
+        ("c", "w.c"),
+        ("cpp", "w.cpp"),
+        ("latex", "w.tex"),
+        ("jax", "w_jax.py"),
+        ("numpy", "w.py"),
+        ("javascript", "w.js"),
+        ("matlab", "w.m"),
+    ] {
         let arguments =
             ["generate", "w.chain", "--language", language, "--only", "exact-error", "--out", file];
         let said = run(&folder, &arguments);
@@ -96,6 +103,7 @@ fn generated_files() {
         is_seen(&folder.read(file), file);
     }
     is_seen(&folder.read("w.h"), "w.h");
+    is_seen(&folder.read("w.hpp"), "w.hpp");
     let quiet = |program: &std::path::Path, arguments: &[&str]| {
         let output =
             Command::new(program).args(arguments).current_dir(&folder.0).output().expect("it starts");

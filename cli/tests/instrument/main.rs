@@ -4,6 +4,7 @@
 mod support;
 
 mod columns;
+mod generated;
 mod kept;
 mod printed;
 mod refused;

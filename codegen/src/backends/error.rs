@@ -32,7 +32,7 @@ pub enum GenerateError {
         form: Form,
     },
     /// Single precision is asked for in a language that has none here.
-    #[error("single precision is written in Rust and C only")]
+    #[error("single precision is written in Rust, C and C++ only")]
     SinglePrecision,
     /// Single precision is asked for of readings.
     #[error(
@@ -75,5 +75,36 @@ pub enum GenerateError {
     FileName {
         /// The name.
         name: String,
+    },
+    /// The name of a file of MATLAB is that of its function.
+    #[error(
+        "the file name `{}` is that of a function in MATLAB: take a letter, then letters, digits and `_`, 63 at most, and no word of the language",
+        model_core::escape::line(name)
+    )]
+    FunctionName {
+        /// The name.
+        name: String,
+    },
+    /// Standard uncertainties are asked for, and nothing says how sure the values are.
+    #[error(
+        "uncertainty needs a covariance: generate from an instrument file that has [covariance], or leave out uncertainty"
+    )]
+    NoCovariance,
+    /// Standard uncertainties are asked for in single precision.
+    #[error(
+        "single precision has no square root here, which uncertainty needs: leave out uncertainty, or --precision f32"
+    )]
+    SingleUncertainty,
+    /// A covariance is no square of finite numbers.
+    #[error("a covariance of {count} estimates has {count} rows of {count} finite numbers; write them so")]
+    Covariance {
+        /// How many estimates it is of.
+        count: usize,
+    },
+    /// A day is not written as one.
+    #[error("`{}` is no day: write it as 2027-06-30", model_core::escape::line(text))]
+    Date {
+        /// The text.
+        text: String,
     },
 }

@@ -4,14 +4,14 @@ use model_core::{Chain, SymbolId, SymbolKind};
 
 use super::names::{Names, Rules, camel_case};
 use super::notation::{Notation, Scope};
-use super::unit::{self, Group, Shared, describe_form, form_name};
+use super::unit::{self, Group, OF_REGION, Shared, describe_form, form_name};
 use crate::lower::tree::{Function, Name, Statement};
 use crate::lower::{Pose, pose};
 use crate::program::{Form, Op};
 use model_core::escape::comments;
 
 /// Any word can be a property, but one is no ordinary one.
-const RULES: Rules = Rules { words: &["__proto__"], starts: &[], takes_letters: true };
+const RULES: Rules = Rules { words: &["__proto__"], starts: &[], takes_letters: true, longest: usize::MAX };
 
 /// Refuses fields that are unknown or missing: a misspelt joint would be NaN, a misspelt error nothing.
 const CHECK: &str = "
@@ -57,8 +57,10 @@ pub(crate) fn write(shared: &Shared<'_>) -> String {
     for function in &shared.functions {
         text.push_str(&file.form(function));
     }
+    text.push_str(&file.region());
     let is_of_ramps = |op: &Op| matches!(op, Op::Saturate(_) | Op::Step(_));
-    if shared.functions.iter().any(|function| function.program.nodes().iter().any(is_of_ramps)) {
+    let programs = shared.functions.iter().map(|function| &function.program).chain(&shared.region);
+    if programs.into_iter().any(|program| program.nodes().iter().any(is_of_ramps)) {
         text.push_str(RAMPS);
     }
     text
@@ -177,6 +179,41 @@ export function {name}Rows(p{arguments}, out) {{
 }}
 "
         ));
+        text
+    }
+
+    /// Whether a pose lies in the measured region, and until when the calibration counts, where that is known.
+    fn region(&self) -> String {
+        let mut text = String::new();
+        if let Some(program) = &self.shared.region {
+            let lowered = pose(program);
+            let js = JavaScript { chain: self.shared.unit.chain, names: self.names, row: "" };
+            let evaluated = js.statements(&lowered.evaluated, 2);
+            let inside = lowered.outputs.iter().map(|value| js.text(value)).collect::<String>();
+            let pose = &self.shared.pose;
+            let document =
+                |group: &Group| format!(" * @param {{{}}} {}\n", group.type_name(), group.argument);
+            let documents: String = pose.iter().map(document).collect();
+            let check = |group: &Group| format!("  check('{0}', {0}Fields, {0});\n", group.argument);
+            let checks: String = pose.iter().map(check).collect();
+            let arguments = pose.iter().map(|group| group.argument).collect::<Vec<_>>().join(", ");
+            text.push_str(&format!(
+                "
+/**
+ * {OF_REGION}
+{documents} * @returns {{boolean}}
+ */
+export function inMeasuredRegion({arguments}) {{
+{checks}{evaluated}  return {inside} > 0.5;
+}}
+"
+            ));
+        }
+        if let Some(date) = self.shared.unit.calibrated.valid_until {
+            text.push_str(&format!(
+                "\n/** The last day on which the calibration counts. */\nexport const validUntil = '{date}';\n"
+            ));
+        }
         text
     }
 

@@ -42,6 +42,9 @@ fn one_form(shared: &Shared<'_>, function: &unit::Function) -> String {
                 Form::ExactError | Form::FirstOrderError => {
                     results.extend(outputs.next().map(|value| format!("\\Delta {observed} &= {value}")));
                 }
+                Form::Uncertainty => {
+                    results.extend(outputs.next().map(|value| format!("u({observed}) &= {value}")));
+                }
                 Form::ExactJacobian | Form::FirstOrderJacobian => {
                     for (&column, value) in shared.columns.iter().zip(&mut outputs) {
                         let error = &shared.unit.chain.symbol(column).latex;

@@ -4,9 +4,12 @@
 //! are called, `notation` how expressions are put into text, `comments` how the declaration's words stay in comments.
 
 mod c;
+mod cpp;
 mod error;
 mod javascript;
+mod jax;
 mod latex;
+mod matlab;
 mod names;
 mod notation;
 mod numpy;
@@ -20,7 +23,7 @@ use model_core::{Chain, Observable, SymbolId, SymbolKind};
 
 pub use error::GenerateError;
 pub use names::snake_case;
-pub use unit::{Precision, Unit, form_name};
+pub use unit::{Calibrated, Precision, Unit, form_name};
 
 use crate::program::{Form, Op};
 use unit::Shared;
@@ -32,21 +35,30 @@ pub enum Language {
     Rust,
     /// C99, a source and a header.
     C,
+    /// C++17: the source of C, with headers.
+    Cpp,
     /// Equations, to be included in a document.
     Latex,
     /// Python with NumPy.
     Numpy,
     /// A JavaScript module.
     Javascript,
+    /// A function file of MATLAB and Octave.
+    Matlab,
+    /// Python with JAX.
+    Jax,
 }
 
 /// Every language with its name.
-pub const LANGUAGES: [(&str, Language); 5] = [
+pub const LANGUAGES: [(&str, Language); 8] = [
     ("rust", Language::Rust),
     ("c", Language::C),
+    ("cpp", Language::Cpp),
     ("latex", Language::Latex),
     ("numpy", Language::Numpy),
     ("javascript", Language::Javascript),
+    ("matlab", Language::Matlab),
+    ("jax", Language::Jax),
 ];
 
 /// A generated file.
@@ -86,9 +98,12 @@ pub fn generate(unit: &Unit<'_>, language: Language, file_name: &str) -> Result<
             let (header, source) = c::write(&shared, file_name);
             vec![file("c", source), file("h", header)]
         }
+        Language::Cpp => cpp::write(&shared, file_name),
         Language::Latex => vec![file("tex", latex::write(&shared))],
         Language::Numpy => vec![file("py", numpy::write(&shared))],
         Language::Javascript => vec![file("js", javascript::write(&shared))],
+        Language::Matlab => vec![file("m", matlab::write(&shared, file_name))],
+        Language::Jax => vec![file("py", jax::write(&shared))],
     })
 }
 
@@ -177,7 +192,9 @@ fn check(unit: &Unit<'_>, language: Language, file_name: &str) -> Result<(), Gen
     if let Some(&form) = unit.forms.iter().find(|&&form| !seen.insert(form)) {
         return Err(GenerateError::RepeatedForm { form });
     }
-    if unit.precision == Precision::Single && !matches!(language, Language::Rust | Language::C) {
+    if unit.precision == Precision::Single
+        && !matches!(language, Language::Rust | Language::C | Language::Cpp)
+    {
         return Err(GenerateError::SinglePrecision);
     }
     for &id in unit.observables {
@@ -188,6 +205,7 @@ fn check(unit: &Unit<'_>, language: Language, file_name: &str) -> Result<(), Gen
         }
         unit.forms.iter().try_for_each(|&form| derivable(observable, form))?;
     }
+    calibrated(unit)?;
     let mut seen = BTreeSet::new();
     for &(id, value) in unit.values {
         let symbol = unit.chain.symbol(id);
@@ -207,10 +225,40 @@ fn check(unit: &Unit<'_>, language: Language, file_name: &str) -> Result<(), Gen
         return Err(GenerateError::NotFinite { form });
     }
     let is_safe = |c: char| c.is_alphanumeric() || "_-.+ ".contains(c);
-    if language == Language::C && !file_name.chars().all(is_safe) {
+    if matches!(language, Language::C | Language::Cpp) && !file_name.chars().all(is_safe) {
         return Err(GenerateError::FileName { name: file_name.to_owned() });
     }
+    if language == Language::Matlab && !matlab::is_function_name(file_name) {
+        return Err(GenerateError::FunctionName { name: file_name.to_owned() });
+    }
     Ok(())
+}
+
+/// What a calibration says must be there where it is asked for, and be what it says.
+fn calibrated(unit: &Unit<'_>) -> Result<(), GenerateError> {
+    let known = unit.calibrated;
+    if unit.forms.contains(&Form::Uncertainty) {
+        let Some(covariance) = known.covariance else { return Err(GenerateError::NoCovariance) };
+        if unit.precision == Precision::Single {
+            return Err(GenerateError::SingleUncertainty);
+        }
+        let count = covariance.of.len();
+        let is_whole = covariance.rows.len() == count && covariance.rows.iter().all(|row| row.len() == count);
+        let is_finite = || covariance.rows.iter().flatten().all(|entry| entry.is_finite());
+        if !is_whole || !is_finite() {
+            return Err(GenerateError::Covariance { count });
+        }
+    }
+    let is_date = |date: &str| {
+        let is_digit = |(at, letter): (usize, char)| {
+            if matches!(at, 4 | 7) { letter == '-' } else { letter.is_ascii_digit() }
+        };
+        date.len() == 10 && date.chars().enumerate().all(is_digit)
+    };
+    match known.valid_until {
+        Some(date) if !is_date(date) => Err(GenerateError::Date { text: date.to_owned() }),
+        _ => Ok(()),
+    }
 }
 
 /// Whether an observable has a form: no angle off an axis has derivatives where there are no errors.
@@ -219,7 +267,7 @@ fn check(unit: &Unit<'_>, language: Language, file_name: &str) -> Result<(), Gen
 /// [`GenerateError::NoDerivative`] where it has not.
 pub fn derivable(observable: &Observable, form: Form) -> Result<(), GenerateError> {
     let is_off_axis = observable.shown.iter().any(|reading| reading.measures == Measures::OffAxis);
-    if is_off_axis && form.is_jacobian() {
+    if is_off_axis && (form.is_jacobian() || form == Form::Uncertainty) {
         return Err(GenerateError::NoDerivative { name: observable.name.clone(), form });
     }
     Ok(())

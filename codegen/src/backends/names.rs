@@ -17,6 +17,8 @@ pub(crate) struct Rules {
     pub(crate) starts: &'static [&'static str],
     /// Whether letters beyond ASCII may stand in a name.
     pub(crate) takes_letters: bool,
+    /// Letters of a name at most, with room for underscores.
+    pub(crate) longest: usize,
 }
 
 /// The names of one chain in one language.
@@ -44,8 +46,11 @@ impl Names {
 
 impl Rules {
     /// A name as the language takes it, which may be that of another.
-    fn spell(self, name: &str) -> String {
+    pub(crate) fn spell(self, name: &str) -> String {
         let mut text = self.letters(name);
+        if text.len() > self.longest {
+            text = text.chars().take(self.longest).collect();
+        }
         if self.starts.iter().any(|start| text.starts_with(start)) {
             text.insert_str(0, "v_");
         }
@@ -126,7 +131,7 @@ pub(crate) fn camel_case(name: &str) -> String {
 mod tests {
     use super::*;
 
-    const RULES: Rules = Rules { words: &["class"], starts: &["__"], takes_letters: true };
+    const RULES: Rules = Rules { words: &["class"], starts: &["__"], takes_letters: true, longest: 12 };
 
     #[test]
     fn names_stay_apart() {
@@ -135,6 +140,12 @@ mod tests {
         let expected =
             ["class__", "class_", "é", "eu301__", "eu301_", "ufb01_", "fi", "readout", "v___x_", "v___x"];
         assert_eq!(spelt, expected);
+    }
+
+    #[test]
+    fn long_names_are_cut_and_stay_apart() {
+        let names = ["a_long_name_one", "a_long_name_", "a_long_name_two"];
+        assert_eq!(RULES.allot(names.into_iter()), ["a_long_name__", "a_long_name_", "a_long_name___"]);
     }
 
     #[test]

@@ -4,13 +4,13 @@ use model_core::{Chain, SymbolId, SymbolKind};
 
 use super::names::{Names, Rules};
 use super::notation::{Notation, Scope};
-use super::unit::{self, Group, Shared, describe_form, form_name};
+use super::unit::{self, Group, OF_REGION, Shared, describe_form, form_name};
 use crate::lower::pose;
 use crate::lower::tree::{Function, Name, Statement};
 use model_core::escape::comments;
 
 /// Python gives names with two underscores in front a meaning of their own.
-const RULES: Rules = Rules { words: &RESERVED, starts: &["__"], takes_letters: true };
+const RULES: Rules = Rules { words: &RESERVED, starts: &["__"], takes_letters: true, longest: usize::MAX };
 
 /// Puts components and columns together; what does not depend on the pose is the same in each.
 const STACK: &str = "
@@ -45,6 +45,7 @@ pub(crate) fn write(shared: &Shared<'_>) -> String {
     for function in &shared.functions {
         text.push_str(&file.form(function));
     }
+    text.push_str(&region(shared, &names, "np"));
     text
 }
 
@@ -77,7 +78,7 @@ impl File<'_> {
         let form = function.form;
         let (name, about) = (form_name(form), describe_form(form));
         let lowered = pose(&function.program);
-        let python = Python { chain: self.shared.unit.chain, names: self.names };
+        let python = Python { chain: self.shared.unit.chain, names: self.names, library: "np" };
         let prepared = python.statements(&lowered.prepared);
         let kept: String =
             lowered.kept.iter().map(|value| format!("        {},\n", python.text(value))).collect();
@@ -128,10 +129,39 @@ def {name}(p{parameters}):
     }
 }
 
+/// Whether a pose lies in the measured region, and until when the calibration counts, where that is known.
+pub(super) fn region(shared: &Shared<'_>, names: &Names, library: &'static str) -> String {
+    let mut text = String::new();
+    if let Some(program) = &shared.region {
+        let (lowered, python) = (pose(program), Python { chain: shared.unit.chain, names, library });
+        let evaluated = python.statements(&lowered.evaluated);
+        let inside = lowered.outputs.iter().map(|value| python.text(value)).collect::<String>();
+        let arguments: Vec<&str> = shared.pose.iter().map(|group| group.argument).collect();
+        let arguments = arguments.join(", ");
+        text.push_str(&format!(
+            "
+
+def in_measured_region({arguments}):
+    \"\"\"{OF_REGION}\"\"\"
+    poses = _poses({arguments})
+{evaluated}    return {library}.broadcast_to({inside}, poses) > 0.5
+"
+        ));
+    }
+    if let Some(date) = shared.unit.calibrated.valid_until {
+        text.push_str(&format!(
+            "\n\n# The last day on which the calibration counts.\nVALID_UNTIL = \"{date}\"\n"
+        ));
+    }
+    text
+}
+
 /// How Python writes a program.
-struct Python<'a> {
-    chain: &'a Chain,
-    names: &'a Names,
+pub(super) struct Python<'a> {
+    pub(super) chain: &'a Chain,
+    pub(super) names: &'a Names,
+    /// What the library of arrays is called.
+    pub(super) library: &'static str,
 }
 
 impl Notation for Python<'_> {
@@ -147,15 +177,16 @@ impl Notation for Python<'_> {
     }
 
     fn call(&self, function: Function, a: &str) -> String {
+        let library = self.library;
         match function {
-            Function::Saturate => format!("np.clip({a}, 0.0, 1.0)"),
-            Function::Step => format!("np.heaviside({a}, 1.0)"),
-            Function::Root => format!("np.sqrt({a})"),
+            Function::Saturate => format!("{library}.clip({a}, 0.0, 1.0)"),
+            Function::Step => format!("{library}.heaviside({a}, 1.0)"),
+            Function::Root => format!("{library}.sqrt({a})"),
         }
     }
 
     fn arc_tangent(&self, y: &str, x: &str) -> String {
-        format!("np.arctan2({y}, {x})")
+        format!("{}.arctan2({y}, {x})", self.library)
     }
 
     fn name(&self, name: Name) -> String {
@@ -164,7 +195,7 @@ impl Notation for Python<'_> {
 }
 
 impl Python<'_> {
-    fn statements(&self, statements: &[Statement]) -> String {
+    pub(super) fn statements(&self, statements: &[Statement]) -> String {
         let mut text = String::new();
         for statement in statements {
             match statement {
@@ -175,7 +206,7 @@ impl Python<'_> {
                     for (function, name) in [("sin", sine), ("cos", cosine)] {
                         if let Some(name) = name {
                             let (name, angle) = (self.name(*name), self.text(angle));
-                            text.push_str(&format!("    {name} = np.{function}({angle})\n"));
+                            text.push_str(&format!("    {name} = {}.{function}({angle})\n", self.library));
                         }
                     }
                 }
@@ -190,7 +221,7 @@ impl Python<'_> {
 }
 
 /// Words of Python that a name in a declaration may be.
-const RESERVED: [&str; 22] = [
+pub(super) const RESERVED: [&str; 22] = [
     "False", "None", "True", "and", "assert", "class", "def", "del", "elif", "except", "finally", "from",
     "global", "import", "is", "lambda", "nonlocal", "not", "or", "pass", "raise", "with",
 ];

@@ -3,7 +3,7 @@
 use model_core::{Chain, ObservableId, Quantity, SymbolId, SymbolKind};
 
 use super::names::{Names, camel_case};
-use crate::build::Builds;
+use crate::build::{Builds, Covariance, Measured};
 use crate::program::{Form, Program};
 use model_core::escape::comments;
 
@@ -27,6 +27,19 @@ pub struct Unit<'a> {
     /// What a reader of the file should know beside the declaration, line by line: how far exact and first-order error
     /// are apart, and in which box of errors.
     pub remarks: &'a [String],
+    /// What a calibration says beside the values.
+    pub calibrated: Calibrated<'a>,
+}
+
+/// What a calibration says of an instrument beside the values of its errors and constants.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Calibrated<'a> {
+    /// How sure those are: for [`Form::Uncertainty`].
+    pub covariance: Option<Covariance<'a>>,
+    /// The region that was measured; the file has a function that says whether a pose lies in it.
+    pub region: &'a [Measured],
+    /// The last day on which the calibration counts, as `2027-06-30`; the file has it as a constant.
+    pub valid_until: Option<&'a str>,
 }
 
 impl<'a> Unit<'a> {
@@ -39,7 +52,17 @@ impl<'a> Unit<'a> {
         forms: &'a [Form],
     ) -> Self {
         let precision = Precision::Double;
-        Self { chain, declaration, observables, forms, values: &[], rows: true, precision, remarks: &[] }
+        Self {
+            chain,
+            declaration,
+            observables,
+            forms,
+            values: &[],
+            rows: true,
+            precision,
+            remarks: &[],
+            calibrated: Calibrated::default(),
+        }
     }
 }
 
@@ -102,12 +125,15 @@ pub(crate) struct Shared<'a> {
     pub(crate) errors: Option<Group>,
     /// Every error: the columns of Jacobians.
     pub(crate) columns: Vec<SymbolId>,
+    /// Whether a pose lies in the region that was measured, 1 or 0, where one is known.
+    pub(crate) region: Option<Program>,
 }
 
 impl<'a> Shared<'a> {
     pub(crate) fn new(unit: &'a Unit<'a>) -> Self {
         let columns: Vec<SymbolId> = unit.chain.symbols_of(SymbolKind::Error).collect();
-        let builds = Builds { chain: unit.chain, values: unit.values };
+        let Calibrated { covariance, region, .. } = unit.calibrated;
+        let builds = Builds { chain: unit.chain, values: unit.values, covariance };
         // A chain without errors has no Jacobians.
         let functions: Vec<Function> = unit
             .forms
@@ -120,6 +146,7 @@ impl<'a> Shared<'a> {
         let inputs = unit.chain.symbols_of(SymbolKind::Input).filter(|&id| is_read(id)).collect();
         let joints = unit.chain.symbols_of(SymbolKind::Joint).collect();
         let pose = [Group::new(SymbolKind::Joint, joints), Group::new(SymbolKind::Input, inputs)];
+        let region: Vec<Measured> = region.iter().copied().filter(|range| is_read(range.symbol)).collect();
         let has_value = |id: &SymbolId| unit.values.iter().any(|(symbol, _)| symbol == id);
         let errors = columns.iter().copied().filter(|id| !has_value(id)).collect();
         Self {
@@ -128,6 +155,7 @@ impl<'a> Shared<'a> {
             pose: pose.into_iter().flatten().collect(),
             errors: Group::new(SymbolKind::Error, errors),
             columns,
+            region: (!region.is_empty()).then(|| builds.region(&region)),
         }
     }
 
@@ -139,6 +167,22 @@ impl<'a> Shared<'a> {
     /// Whether a form has a function without branches beside its usual one. In single precision that is the usual one.
     pub(crate) fn has_variant_without_branch(&self, form: Form) -> bool {
         form == Form::FirstOrderError && self.unit.precision == Precision::Double
+    }
+
+    /// The joints that an inverse correction moves, where the file can have one: it is made of exact value and exact error.
+    pub(crate) fn joints_to_correct(&self) -> Option<&Group> {
+        let has = |form| self.functions.iter().any(|function| function.form == form);
+        let is_possible = has(Form::ExactValue)
+            && has(Form::ExactError)
+            && self.unit.precision == Precision::Double
+            && !self.columns.is_empty();
+        self.pose.iter().find(|group| is_possible && group.kind == SymbolKind::Joint)
+    }
+
+    /// The observables that an inverse correction is made for: those that show components. Readings of angles jump.
+    pub(crate) fn with_inverse(&self) -> impl Iterator<Item = ObservableId> {
+        let shows_components = |id: &ObservableId| self.unit.chain.observable(*id).has_components_only();
+        self.unit.observables.iter().copied().filter(shows_components)
     }
 
     /// The symbols of a pose, in order.
@@ -222,6 +266,17 @@ impl<'a> Shared<'a> {
                  instructions for every angle.\n",
             );
         }
+        if let Some(date) = self.unit.calibrated.valid_until {
+            text.push_str(&format!("This calibration is valid until {date}.\n"));
+        }
+        if self.region.is_some() {
+            text.push_str("Measured over:\n");
+        }
+        for range in self.unit.calibrated.region.iter().filter(|_| self.region.is_some()) {
+            let symbol = chain.symbol(range.symbol);
+            let (low, high, unit) = (range.low, range.high, symbol.quantity.unit());
+            text.push_str(&format!("    {} from {low:?} to {high:?} {unit}\n", symbol.name));
+        }
         for remark in self.unit.remarks {
             text.push_str(remark);
             text.push('\n');
@@ -270,6 +325,7 @@ pub fn form_name(form: Form) -> &'static str {
         Form::FirstOrderError => "first_order_error",
         Form::ExactJacobian => "exact_jacobian",
         Form::FirstOrderJacobian => "first_order_jacobian",
+        Form::Uncertainty => "uncertainty",
     }
 }
 
@@ -289,5 +345,11 @@ pub(crate) fn describe_form(form: Form) -> &'static str {
         Form::FirstOrderJacobian => {
             "Derivatives of the observables with respect to every error where all errors are zero (order 1): rows x, y and z, a column for each error."
         }
+        Form::Uncertainty => {
+            "The standard uncertainty of the observables with errors, by the covariance of the calibration: of x, y and z, in the unit of each."
+        }
     }
 }
+
+/// What the function of the measured region says, on one line.
+pub(crate) const OF_REGION: &str = "Whether a pose lies in the measured region. Outside nothing confirms the correction. A reading that is no number is outside.";

@@ -11,6 +11,8 @@ mod path;
 mod product;
 mod ramp;
 mod readings;
+mod region;
+mod uncertain;
 mod vectors;
 
 use model_core::{Chain, ObservableId, SymbolId, SymbolKind};
@@ -21,6 +23,8 @@ use path::Path;
 use vectors::{NOTHING, Vector};
 
 pub use product::{MatrixProduct, Step, matrix_product};
+pub use region::Measured;
+pub use uncertain::Covariance;
 
 /// The program of one form of some observables. `wrt` are the columns of Jacobians; other forms ignore it.
 ///
@@ -57,7 +61,14 @@ pub fn build(chain: &Chain, observables: &[ObservableId], form: Form, wrt: &[Sym
 /// [`build`] orders them.
 #[must_use]
 pub fn build_all(chain: &Chain, observables: &[ObservableId], forms: &[Form], wrt: &[SymbolId]) -> Program {
-    Builds { chain, values: &[] }.build(observables, forms, wrt)
+    Builds { chain, values: &[], covariance: None }.build(observables, forms, wrt)
+}
+
+/// The program of the standard uncertainties of what some observables show: [`Form::Uncertainty`]. In the other functions here
+/// that form is zero, for nothing is unsure there.
+#[must_use]
+pub fn build_uncertainty(chain: &Chain, observables: &[ObservableId], covariance: Covariance<'_>) -> Program {
+    Builds { chain, values: &[], covariance: Some(covariance) }.build(observables, &[Form::Uncertainty], &[])
 }
 
 /// What programs are built from.
@@ -65,9 +76,19 @@ pub(crate) struct Builds<'a> {
     pub(crate) chain: &'a Chain,
     /// Errors and constants whose values are numbers of the program.
     pub(crate) values: &'a [(SymbolId, f64)],
+    /// How sure they are.
+    pub(crate) covariance: Option<Covariance<'a>>,
 }
 
 impl Builds<'_> {
+    /// The program that says whether a pose lies in the region that was measured: one number, 1 or 0.
+    pub(crate) fn region(&self, ranges: &[Measured]) -> Program {
+        let mut b = Builder::new(self.chain, self.values);
+        let inside = region::inside(&mut b, ranges);
+        let layout = Layout { forms: vec![], observables: vec![], shown: vec![], wrt: vec![] };
+        b.finish(layout, &[inside])
+    }
+
     /// One program for several forms.
     pub(crate) fn build(&self, observables: &[ObservableId], forms: &[Form], wrt: &[SymbolId]) -> Program {
         let layout = Layout {
@@ -137,6 +158,14 @@ impl Builds<'_> {
                         };
                         outputs.extend(jacobian_rows(b, chain, path, at, &layout.wrt));
                     }
+                    Form::Uncertainty => match self.covariance.filter(|known| !known.of.is_empty()) {
+                        Some(covariance) => {
+                            let at = jacobian::At::Errors;
+                            let derivatives = jacobian_rows(b, chain, path, at, covariance.of);
+                            outputs.extend(uncertain::standard(b, &derivatives, &covariance));
+                        }
+                        None => outputs.extend(path.shown.iter().map(|_| Builder::ZERO)),
+                    },
                 }
             }
         }

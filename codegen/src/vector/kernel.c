@@ -1,9 +1,15 @@
 /*
  * Sine and cosine of many angles at once, without branches, tables or libraries: the algorithm of trueaxis' Rust
  * kernel, operation by operation, so that both give the same bits (compile with -ffp-contract=off for that, and never
- * with -ffast-math, which undoes the reduction). C99; with GCC or Clang on x86-64 it is compiled for three paths.
+ * with -ffast-math, which undoes the reduction). C99 and C++17; with GCC or Clang on x86-64 it is compiled for three
+ * paths.
  */
 #include <stdint.h>
+
+/* Compilers of C++ have it under this name alone. */
+#ifdef __cplusplus
+#define restrict __restrict
+#endif
 
 #ifdef __FAST_MATH__
 #error "trueaxis: the sine and cosine rely on the order of operations; compile without -ffast-math"

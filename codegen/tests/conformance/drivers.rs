@@ -180,6 +180,100 @@ pub fn c(cases: &[Case]) -> String {
     text + &main + "    return 0;\n}\n"
 }
 
+pub fn cpp(cases: &[Case]) -> String {
+    let mut text =
+        String::from("#include <cstdio>\n#include <cstdlib>\n#include <cstring>\n#include <vector>\n");
+    for case in cases {
+        writeln!(text, "#include \"{}.hpp\"", case.name).unwrap();
+    }
+    text.push_str(
+        "
+template <class Of> void print(const Of& of) {
+    for (std::size_t at = 0; at < sizeof(Of) / sizeof(double); at++)
+        std::printf(\"%.17g\\n\", reinterpret_cast<const double*>(&of)[at]);
+}
+template <class Of> void same(const Of& one, const Of& other) {
+    if (std::memcmp(&one, &other, sizeof(Of)) != 0)
+        std::exit(1);
+}
+",
+    );
+    let mut main = String::from("int main() {\n");
+    let compared = COMPARED.map(|row| row.to_string()).join(", ");
+    for case in cases {
+        let (name, namespace) = (case.name, codegen::snake_case(&case.chain.name));
+        writeln!(main, "    run_{name}();").unwrap();
+        writeln!(text, "static void run_{name}() {{\n    namespace of = trueaxis::{namespace};").unwrap();
+        for id in case.pose_symbols() {
+            let (index, column) = (id.index(), case.column(id).join(", "));
+            writeln!(text, "    const std::vector<double> column{index} = {{{column}}};").unwrap();
+        }
+        let list = |symbols: &[SymbolId], end: &str| -> String {
+            symbols.iter().map(|id| format!("column{}{end}", id.index())).collect::<Vec<_>>().join(", ")
+        };
+        let errors: Vec<String> = case.errors().iter().map(|&id| case.column(id)[0].clone()).collect();
+        writeln!(text, "    const of::Errors errors = {{{}}};", errors.join(", ")).unwrap();
+        for (argument, symbols) in &case.pose {
+            let kind = if *argument == "joints" { "Joint" } else { "Input" };
+            let columns = list(symbols, "");
+            writeln!(text, "    const of::{kind}Rows {argument}_rows = {{{columns}}};").unwrap();
+        }
+        let poses: String = case
+            .pose
+            .iter()
+            .map(|(argument, symbols)| {
+                let kind = if *argument == "joints" { "Joints" } else { "Inputs" };
+                format!("            const of::{kind} {argument} = {{{}}};\n", list(symbols, "[row]"))
+            })
+            .collect();
+        let one_pose = case.of_pose(&|argument, _| argument.to_owned());
+        let many_poses = case.of_pose(&|argument, _| format!("{argument}_rows"));
+        for (form, form_name) in FORMS {
+            let kind: String =
+                form_name.split('_').map(|word| word[..1].to_uppercase() + &word[1..]).collect();
+            let result = if form.is_jacobian() { "Jacobian" } else { "Observed" };
+            let without_branch = if form == Form::FirstOrderError {
+                format!("            same(out, form.without_branch({one_pose}));\n")
+            } else {
+                String::new()
+            };
+            let observable = &case.chain.observables[0].name;
+            let last = if form.is_jacobian() { "[0][0]" } else { "[0]" };
+            let mapped = if form.is_jacobian() { "(0, 0)" } else { "[0]" };
+            write!(
+                text,
+                "    {{
+        const of::{kind} form(errors);
+        for (std::size_t row = 0; row < {SINGLE}; row++) {{
+{poses}            const of::{result} out = form({one_pose});
+            print(out);
+{without_branch}#ifdef TRUEAXIS_HAS_EIGEN
+            same(trueaxis::eigen(out.{observable}){mapped}, out.{observable}{last});
+#endif
+        }}
+        constexpr std::size_t outputs = sizeof(of::{result}) / sizeof(double);
+        std::vector<std::vector<double>> rows(outputs, std::vector<double>({ROWS}));
+        of::{result}Rows out;
+        for (std::size_t output = 0; output < outputs; output++)
+            reinterpret_cast<trueaxis::Span<double>*>(&out)[output] = rows[output];
+        if (!form.rows({many_poses}, out))
+            std::exit(1);
+        for (const std::size_t row : {{{compared}}})
+            for (const auto& column : rows)
+                std::printf(\"%.17g\\n\", column[row]);
+        reinterpret_cast<trueaxis::Span<double>*>(&out)[outputs - 1] = {{rows[0].data(), 3}};
+        if (form.rows({many_poses}, out))
+            std::exit(1);
+    }}
+"
+            )
+            .unwrap();
+        }
+        text.push_str("}\n");
+    }
+    text + &main + "}\n"
+}
+
 pub fn javascript(cases: &[Case]) -> String {
     let mut text = String::new();
     let mut main = String::from(

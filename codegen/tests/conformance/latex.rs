@@ -32,6 +32,7 @@ fn names(case: &Case, form: Form) -> Vec<Vec<String>> {
             match form {
                 Form::ExactValue => names.push(observed),
                 Form::ExactError | Form::FirstOrderError => names.push(format!("\\Delta {observed}")),
+                Form::Uncertainty => names.push(format!("u({observed})")),
                 Form::ExactJacobian | Form::FirstOrderJacobian => {
                     names.extend(case.errors().into_iter().map(|id| {
                         format!("\\partial {observed} / \\partial {}", case.chain.symbol(id).latex)

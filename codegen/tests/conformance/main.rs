@@ -1,6 +1,6 @@
 //! Generated code, compiled or run, against the interpreter: thirteen chains, all forms, every language that runs.
 //!
-//! Rust and C compute one pose as the interpreter does, bit by bit: the same operations, the same sine and cosine. Many
+//! Rust, C and C++ compute one pose as the interpreter does, bit by bit: the same operations, the same sine and cosine. Many
 //! poses at once may fuse products and sums inside sine and cosine, and the other languages have their own; these agree
 //! within 4 units in the last place of the result's scale.
 #![allow(clippy::unwrap_used)]
@@ -8,9 +8,12 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod arrays;
 mod branches;
+mod calibrated;
 mod case;
 mod drivers;
+mod inverse;
 mod latex;
 mod single;
 
@@ -104,6 +107,26 @@ fn c() {
     compare(&cases, &output(Command::new(folder.join("main")).arg(path)), true);
 }
 
+/// The header of C++ alone, with the source as C++; it agrees with the header's maps where Eigen is.
+#[test]
+fn cpp() {
+    let Some(compiler) = testkit::tool(testkit::CXX) else { return };
+    let cases = Case::all();
+    let folder = folder("cpp");
+    write_all(&cases, Language::Cpp, &folder);
+    fs::write(folder.join("main.cpp"), drivers::cpp(&cases)).unwrap();
+    let sources = cases.iter().map(|case| format!("{}.cpp", case.name));
+    let strict = ["-std=c++17", "-O1", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror", "-pedantic"];
+    output(
+        Command::new(compiler)
+            .current_dir(&folder)
+            .args(strict)
+            .args(["-isystem", "/usr/include/eigen3", "-o", "main", "main.cpp"])
+            .args(sources),
+    );
+    compare(&cases, &output(&mut Command::new(folder.join("main"))), true);
+}
+
 /// Nothing to warn of either where there is little: no joints, no errors.
 #[test]
 fn c_of_small_chains() {
@@ -183,5 +206,26 @@ fn numpy() {
     let folder = folder("numpy");
     write_all(&cases, Language::Numpy, &folder);
     fs::write(folder.join("main.py"), drivers::numpy(&cases)).unwrap();
+    compare(&cases, &output(Command::new(python).current_dir(&folder).arg("main.py")), false);
+}
+
+#[test]
+fn matlab() {
+    let Some(octave) = testkit::tool(testkit::OCTAVE) else { return };
+    let cases = Case::all();
+    let folder = folder("matlab");
+    write_all(&cases, Language::Matlab, &folder);
+    fs::write(folder.join("main.m"), arrays::matlab(&cases)).unwrap();
+    let quiet = ["--no-history", "--norc", "--quiet", "main.m"];
+    compare(&cases, &output(Command::new(octave).current_dir(&folder).args(quiet)), false);
+}
+
+#[test]
+fn jax() {
+    let Some(python) = testkit::tool(testkit::JAX) else { return };
+    let cases = Case::all();
+    let folder = folder("jax");
+    write_all(&cases, Language::Jax, &folder);
+    fs::write(folder.join("main.py"), arrays::jax(&cases)).unwrap();
     compare(&cases, &output(Command::new(python).current_dir(&folder).arg("main.py")), false);
 }

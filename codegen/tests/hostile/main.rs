@@ -73,6 +73,26 @@ fn compiles(unit: &Unit<'_>, folder: &Path) {
                 let load = "await import('./file.js'); if (globalThis.injected) throw new Error('injected');";
                 command(&node, &["--input-type=module", "-e", load]);
             }
+            Language::Cpp => {
+                let Some(compiler) = testkit::tool(testkit::CXX) else { continue };
+                let strict = ["-std=c++17", "-pedantic", "-Wall", "-Wextra", "-Werror", "-fsyntax-only"];
+                fs::write(folder.join("twice.cpp"), "#include \"file.hpp\"\n#include \"file.hpp\"\n")
+                    .unwrap();
+                command(&compiler, &[strict.as_slice(), &["file.cpp", "twice.cpp"]].concat());
+            }
+            Language::Matlab => {
+                let Some(octave) = testkit::tool(testkit::OCTAVE) else { continue };
+                let load = "of = file(); if isempty(of), error('nothing'), end";
+                command(&octave, &["--no-history", "--norc", "--quiet", "--eval", load]);
+            }
+            Language::Jax => {
+                let Some(python) = testkit::tool(testkit::PYTHON) else { continue };
+                fs::create_dir_all(folder.join("jax")).unwrap();
+                fs::write(folder.join("jax/__init__.py"), "").unwrap();
+                fs::write(folder.join("jax/numpy.py"), "").unwrap();
+                command(&python, &["-B", "-W", "error", "-c", "import file"]);
+                fs::remove_dir_all(folder.join("jax")).unwrap();
+            }
             Language::Numpy => {
                 let Some(python) = testkit::tool(testkit::PYTHON) else { continue };
                 fs::write(folder.join("numpy.py"), "ndarray = object\n").unwrap();

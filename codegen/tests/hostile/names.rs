@@ -6,7 +6,7 @@ use model_core::{Chain, ObservableId};
 use super::{FORMS, compiles, folder};
 
 /// Errors with these names.
-const NAMES: [&str; 39] = [
+const NAMES: [&str; 46] = [
     "NULL",
     "_Bool",
     "_Complex",
@@ -46,6 +46,13 @@ const NAMES: [&str; 39] = [
     "e\u{301}",
     "ﬁ",
     "fi",
+    "end",
+    "endfunction",
+    "Joints",
+    "Span",
+    "_a",
+    "a_name_that_is_longer_than_any_that_a_language_of_matrices_takes_1",
+    "a_name_that_is_longer_than_any_that_a_language_of_matrices_takes_2",
 ];
 
 #[test]
@@ -65,12 +72,15 @@ fn names_of_every_kind_compile() {
             observe value: direction(0, 1, 0) of table;
             observe new: direction(1, 0, 0) of table;
             observe __proto__: direction(1, 1, 0) of table;
+            observe rows: direction(1, 1, 0) of table;
+            observe to: direction(1, 1, 0) of table;
+            observe TRUEAXIS_pointers: direction(1, 1, 0) of table;
         }}",
         factors.join(", ")
     );
     let chain =
         Chain::from_text(&text).unwrap_or_else(|mistakes| panic!("{}", mistakes.render("names", &text)));
-    let observables: Vec<ObservableId> = (0..5).map(ObservableId).collect();
+    let observables: Vec<ObservableId> = (0..8).map(ObservableId).collect();
     compiles(&Unit::new(&chain, &text, &observables, &FORMS), &folder("names"));
 }
 

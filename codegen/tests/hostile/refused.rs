@@ -1,6 +1,6 @@
 //! What has no code is refused, and says why.
 
-use codegen::{Form, GenerateError, Language, Unit, generate};
+use codegen::{Calibrated, Covariance, Form, GenerateError, Language, Precision, Unit, generate};
 use model_core::{Chain, ObservableId};
 
 const TABLE: &str = "chain Table { body top on ground { motion: Rz(turn); motion_error: Rz(index); } \
@@ -59,5 +59,43 @@ fn values_of_what_is_no_error() {
             Unit { values: &values, ..Unit::new(&chain, TABLE, &[ObservableId(0)], &[Form::ExactValue]) };
         let refusal = generate(&unit, Language::Rust, "table").unwrap_err();
         assert_eq!(refusal, GenerateError::Value { name: name.into() });
+    }
+}
+
+/// The file of MATLAB is called as its function.
+#[test]
+fn names_that_are_no_function() {
+    let chain = Chain::from_text(TABLE).unwrap();
+    let unit = Unit::new(&chain, TABLE, &[ObservableId(0)], &[Form::ExactValue]);
+    let long = "a".repeat(64);
+    for name in ["", "1st", "a-b", "a.b", "_a", "end", "é", "x()", long.as_str()] {
+        let refusal = generate(&unit, Language::Matlab, name).unwrap_err();
+        assert_eq!(refusal, GenerateError::FunctionName { name: name.into() });
+    }
+    assert!(generate(&unit, Language::Matlab, "table_2").is_ok());
+}
+
+#[test]
+fn calibrations_that_say_too_little() {
+    let chain = Chain::from_text(TABLE).unwrap();
+    let of = [chain.find_symbol("index").unwrap()];
+    let refusal = |calibrated: Calibrated<'_>, precision| {
+        let plain = Unit::new(&chain, TABLE, &[ObservableId(0)], &[Form::Uncertainty]);
+        generate(&Unit { calibrated, precision, ..plain }, Language::C, "table").map(|_| ())
+    };
+    let double = Precision::Double;
+    assert_eq!(refusal(Calibrated::default(), double), Err(GenerateError::NoCovariance));
+    for rows in [vec![], vec![vec![1e-9, 0.0]], vec![vec![f64::NAN]]] {
+        let covariance = Some(Covariance { of: &of, rows: &rows });
+        let refused = refusal(Calibrated { covariance, ..Calibrated::default() }, double);
+        assert_eq!(refused, Err(GenerateError::Covariance { count: 1 }));
+    }
+    let rows = [vec![1e-9]];
+    let known = Calibrated { covariance: Some(Covariance { of: &of, rows: &rows }), ..Calibrated::default() };
+    assert_eq!(refusal(known, double), Ok(()));
+    assert_eq!(refusal(known, Precision::Single), Err(GenerateError::SingleUncertainty));
+    for day in ["", "2027-6-30", "2027-06-30\"; injected", "2027/06/30"] {
+        let refused = refusal(Calibrated { valid_until: Some(day), ..known }, double);
+        assert_eq!(refused, Err(GenerateError::Date { text: day.into() }));
     }
 }

@@ -52,6 +52,12 @@ pub fn python(text: &str) -> String {
     behind("#", text)
 }
 
+/// `%` comments of MATLAB and Octave: behind a space no letter begins a block, or a test of Octave.
+#[must_use]
+pub fn matlab(text: &str) -> String {
+    behind("%", text)
+}
+
 /// Inside `r"""…"""` of Python, where it ends before the end of a line.
 #[must_use]
 pub fn python_doc(text: &str) -> String {

@@ -11,7 +11,7 @@
 //! | HTML and SVG | [`markup`] for a text, [`page`] for what is finished |
 //! | Markdown and the documentation of Rust | [`markdown`], [`markdown_code`] |
 //! | words of LaTeX | [`latex`]; a formula, [`latex_formula`] |
-//! | comments of Rust, C, JavaScript, Python, LaTeX and Coq | [`comments`] |
+//! | comments of Rust, C, C++, JavaScript, Python, MATLAB, LaTeX and Coq | [`comments`] |
 
 pub mod comments;
 mod json;

@@ -2,10 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use model_core::{Chain, Quantity, SymbolId, SymbolKind};
+use codegen::Measured;
+use model_core::budget::spread;
+use model_core::{Chain, ObservableId, Quantity, SymbolId, SymbolKind};
 
 use crate::errors_file::FoundOver;
-use crate::evaluation::Evaluator;
+use crate::evaluation::{self, Evaluator, Exactness};
+use crate::instrument::Instrument;
 use crate::refusal::Refusal;
 
 /// Readings are within a range to this part of it: what was written and read again is.
@@ -180,6 +183,37 @@ fn turns(
         .flatten()
         .zip(there.iter().flatten())
         .all(|(a, b)| (a - b).abs() <= SAME * far || a.is_nan()))
+}
+
+/// The measured region of an instrument for code that is generated of some observables.
+///
+/// # Errors
+/// None that an instrument which was read has: its readings are all there.
+pub fn region(instrument: &Instrument, observables: &[ObservableId]) -> Result<Vec<Measured>, Refusal> {
+    let chain = &instrument.chain;
+    let quantity = evaluation::Quantity::Value;
+    let evaluator =
+        Evaluator::new(chain, observables.to_vec(), Exactness::Exact, quantity, &instrument.values);
+    let bounds: Vec<(f64, f64)> = evaluator
+        .readings
+        .iter()
+        .map(|&id| match instrument.found.iter().find(|found| found.symbol == id) {
+            Some(found) => (found.low, found.high),
+            // Any readings do where none are known.
+            None => (1.0, 2.0),
+        })
+        .collect();
+    let poses: Vec<Vec<f64>> = spread(&bounds, TRIED).collect();
+    let column = |at: usize| -> Vec<f64> { poses.iter().map(|pose| pose[at]).collect() };
+    let columns: Vec<Vec<f64>> = (0..bounds.len()).map(column).collect();
+    let readings: Vec<(SymbolId, &[f64])> =
+        evaluator.readings.iter().copied().zip(columns.iter().map(Vec::as_slice)).collect();
+    let measured = instrument.found.iter().filter(|found| evaluator.readings.contains(&found.symbol));
+    measured
+        .map(|&FoundOver { symbol, low, high }| {
+            Ok(Measured { symbol, low, high, turns: turns(chain, symbol, &readings, &evaluator)? })
+        })
+        .collect()
 }
 
 /// A reading as people read it.

@@ -10,7 +10,7 @@ mod uncertain;
 
 pub use as_measured::{AsMeasured, in_vectors};
 pub use correct::{Beside, Correction};
-pub use found::{Counted, Outside};
+pub use found::{Counted, Outside, region};
 pub use layout::{Layout, Place, not_finite, not_finite_warnings, numbers, write_separated};
 pub use seen::{As, Seen};
 pub use solve::Solver;

@@ -10,10 +10,10 @@ mod words;
 
 use self::code::{C, real};
 pub(crate) use self::entries::REPEATED;
-use self::words::RULES;
+pub(crate) use self::words::RULES;
 use super::names::{Names, snake_case};
 use super::notation::{Notation, Scope};
-use super::unit::{Function, Group, Precision, Shared, describe_form, form_name};
+use super::unit::{Function, Group, OF_REGION, Precision, Shared, describe_form, form_name};
 use crate::lower::pose;
 use crate::program::Form;
 use crate::vector;
@@ -21,8 +21,8 @@ use model_core::escape::comments;
 
 /// How the files are used.
 const USE: &str = "
-C99, with nothing but stddef.h and stdint.h; no library is needed, -lm neither. Compile with -ffp-contract=off for the
-same bits on every processor, and never with -ffast-math.
+C99, and C++17 too, with nothing but stddef.h and stdint.h; no library is needed, -lm neither. Compile with
+-ffp-contract=off for the same bits on every processor, and never with -ffast-math.
 ";
 
 /// The header and the source that includes it as `<file name>.h`.
@@ -82,6 +82,17 @@ impl File<'_> {
         for function in &shared.functions {
             text.push_str(&self.declarations(function));
         }
+        if shared.region.is_some() {
+            text.push_str(&format!(
+                "\n// {OF_REGION}\n// 1 inside, 0 outside.\n{};\n",
+                self.region_signature()
+            ));
+        }
+        if shared.unit.calibrated.valid_until.is_some() {
+            text.push_str(&format!(
+                "\n// The last day on which the calibration counts.\nextern const char {prefix}_valid_until[11];\n"
+            ));
+        }
         if shared.has_rows() {
             text.push_str(&rows::declaration_of_path(prefix));
         }
@@ -98,10 +109,45 @@ impl File<'_> {
                 text.push_str(&rows::definitions(self, function));
             }
         }
+        text.push_str(&self.region());
+        if let Some(date) = self.shared.unit.calibrated.valid_until {
+            text.push_str(&format!("\nconst char {}_valid_until[11] = \"{date}\";\n", self.prefix));
+        }
         if self.shared.has_rows() {
             text.push_str(&rows::definition_of_path(&self.prefix));
         }
         text
+    }
+
+    fn region_signature(&self) -> String {
+        let prefix = &self.prefix;
+        let pose = self.of_pose(&|group| format!("const {prefix}_{0} *{0}, ", group.argument));
+        format!("int {prefix}_in_measured_region({})", pose.trim_end_matches(", "))
+    }
+
+    /// Whether a pose lies in the measured region.
+    fn region(&self) -> String {
+        let Some(program) = &self.shared.region else { return String::new() };
+        let lowered = pose(program);
+        let c = self.code(self.any_angle());
+        let body = c.statements(&lowered.evaluated, 4);
+        let inside = lowered.outputs.iter().map(|value| c.text(value)).collect::<String>();
+        let unread = self.of_pose(&|group| format!("    (void){};\n", group.argument));
+        format!("\n{}\n{{\n{unread}{body}    return {inside} > 0.5;\n}}\n", self.region_signature())
+    }
+
+    /// C of one pose.
+    fn code<'s>(&'s self, sin_cos: &'s str) -> C<'s> {
+        let (chain, names, scope) = (self.shared.unit.chain, self.names, Scope::Pose);
+        C { chain, names, scope, precision: self.shared.unit.precision, sin_cos }
+    }
+
+    /// The call that gives sine and cosine of any angle, up to the angle.
+    fn any_angle(&self) -> &'static str {
+        match self.shared.unit.precision {
+            Precision::Double => "trueaxis_sin_cos_with(0, ",
+            Precision::Single => "trueaxis_sin_cos(",
+        }
     }
 
     /// The text of sines and cosines.
@@ -226,21 +272,13 @@ typedef struct {{
 
     fn definitions(&self, function: &Function) -> String {
         let lowered = pose(&function.program);
-        let precision = self.shared.unit.precision;
-        let c = |sin_cos| {
-            let (chain, names, scope) = (self.shared.unit.chain, self.names, Scope::Pose);
-            C { chain, names, scope, precision, sin_cos }
-        };
-        let any_angle = match precision {
-            Precision::Double => "trueaxis_sin_cos_with(0, ",
-            Precision::Single => "trueaxis_sin_cos(",
-        };
+        let any_angle = self.any_angle();
         let mut variants = vec![("", any_angle)];
         if self.shared.has_variant_without_branch(function.form) {
             variants.push(("_without_branch", "trueaxis_sin_cos_without_branch("));
         }
-        let prepared = c(any_angle);
-        let real = real(precision);
+        let prepared = self.code(any_angle);
+        let real = real(self.shared.unit.precision);
         let mut text = format!("\n{}\n{{\n", self.prepare(function));
         if self.shared.errors.is_some() {
             text.push_str("    (void)errors;\n");
@@ -255,7 +293,7 @@ typedef struct {{
         text.push_str("}\n");
         let unread = self.of_pose(&|group| format!("    (void){};\n", group.argument));
         for (variant, sin_cos) in variants {
-            let (signature, c) = (self.one(function.form, variant), c(sin_cos));
+            let (signature, c) = (self.one(function.form, variant), self.code(sin_cos));
             let body = c.statements(&lowered.evaluated, 4);
             let places = self.shared.places(function.form, self.names);
             let stores: String = places

@@ -3,7 +3,8 @@
 use crate::backends::names::Rules;
 
 /// Letters beyond ASCII are written by their number: compilers differ in what they take.
-pub(super) const RULES: Rules = Rules { words: &RESERVED, starts: &STARTS, takes_letters: false };
+pub(crate) const RULES: Rules =
+    Rules { words: &RESERVED, starts: &STARTS, takes_letters: false, longest: usize::MAX };
 
 /// What the languages keep for themselves, and macros of standard headers and of the kernel.
 #[rustfmt::skip]

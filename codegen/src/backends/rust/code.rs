@@ -9,7 +9,7 @@ use crate::lower::Pose;
 use crate::lower::tree::{Angle, Function, Name, Statement, Target, Wave};
 
 /// Names of a declaration are identifiers of Rust.
-pub(super) const RULES: Rules = Rules { words: &[], starts: &[], takes_letters: true };
+pub(super) const RULES: Rules = Rules { words: &[], starts: &[], takes_letters: true, longest: usize::MAX };
 
 /// How Rust writes constants.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

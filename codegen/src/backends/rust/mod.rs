@@ -11,8 +11,8 @@ mod types;
 use self::code::{Constants, RULES, Rust};
 use self::types::ALLOW;
 use super::names::{Names, camel_case};
-use super::notation::Scope;
-use super::unit::{Function, Group, Shared, describe_form, form_name};
+use super::notation::{Notation as _, Scope};
+use super::unit::{Function, Group, OF_REGION, Shared, describe_form, form_name};
 use crate::lower::pose;
 use crate::program::Form;
 use model_core::escape::comments;
@@ -29,6 +29,12 @@ pub(crate) fn write(shared: &Shared<'_>) -> String {
     text.push_str(&file.types());
     for function in &shared.functions {
         text.push_str(&file.item(function));
+    }
+    text.push_str(&file.region());
+    if let Some(date) = shared.unit.calibrated.valid_until {
+        text.push_str(&format!(
+            "\n/// The last day on which the calibration counts.\n#[allow(dead_code)]\npub const VALID_UNTIL: &str = \"{date}\";\n"
+        ));
     }
     if shared.has_rows() {
         text.push_str(types::LENGTHS_DIFFER);
@@ -150,6 +156,25 @@ impl {kind} {{
             text.push_str(&rows::items(self, function));
         }
         text
+    }
+
+    /// Whether a pose lies in the measured region.
+    fn region(&self) -> String {
+        let Some(program) = &self.shared.region else { return String::new() };
+        let (lowered, rust) = (pose(program), self.rust("sine_cosine::sin_cos"));
+        let body = rust.statements(&lowered.evaluated, 4);
+        let inside = lowered.outputs.iter().map(|value| rust.text(value)).collect::<String>();
+        let parameters = self.parameters();
+        format!(
+            "
+/// {OF_REGION}
+#[must_use]
+#[allow(dead_code, unused_variables, non_snake_case, clippy::all, clippy::pedantic)]
+pub fn in_measured_region({parameters}) -> bool {{
+{body}    {inside} > 0.5
+}}
+"
+        )
     }
 
     /// The statements of a pose and what it returns.

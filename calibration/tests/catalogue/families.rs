@@ -186,12 +186,28 @@ fn a_declared_meaning_counts_and_a_name_does_not() {
     }
 }
 
-/// A declination is no altitude: its axis is level at two hour angles alone, and the tangent of it says nothing of the air.
+/// A declination is no altitude: its axis is level at two hour angles alone, and the tangent of it says nothing of the air. The
+/// zenith distance follows from both joints.
 #[test]
-fn refraction_needs_an_axis_that_stays_level() {
+fn refraction_follows_the_zenith_distance() {
+    let of = |text: &str, kind: &str| {
+        let all = names(&Asked::of(text, "sight", kind, ""));
+        all.into_iter().filter(|name| name.starts_with("refraction")).collect::<Vec<_>>()
+    };
     let equatorial = example("equatorial/equatorial.chain");
-    let of = |text: &str, observable: &str| names(&Asked::of(text, observable, "direction", ""));
-    assert!(of(&equatorial, "sight").iter().all(|name| !name.starts_with("refraction")));
+    assert_eq!(
+        of(&equatorial, "direction"),
+        [
+            "refraction, tangent of the zenith distance",
+            "refraction, cube of the tangent of the zenith distance"
+        ]
+    );
     let mount = example("alt-azimuth/alt-azimuth.chain");
-    assert!(of(&mount, "sight").contains(&"refraction, cot of elevation".to_owned()));
+    assert_eq!(
+        of(&mount, "direction"),
+        ["refraction, cot of elevation", "refraction, cube of cot of elevation"]
+    );
+    // Where up is not known with its length, the zenith distance is not known.
+    let unknown = equatorial.replace("gravity: (0, -cos(latitude)", "gravity: (0, -2*cos(latitude)");
+    assert_eq!(of(&unknown, "direction"), Vec::<String>::new());
 }

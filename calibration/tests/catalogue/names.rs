@@ -142,6 +142,7 @@ fn names_belong_to_the_effects_that_their_fields_mean() {
             ("ME", "constant rotation of fork axis about x"),
             ("MA", "constant rotation of fork axis about y"),
             ("TF", "droop of tube under gravity"),
+            ("TX", "refraction, tangent of the zenith distance"),
             ("FO", "gravity flexure of fork about x"),
             ("DAF", "gravity flexure of tube about z"),
             ("HCES", "encoder eccentricity of ha"),
@@ -202,8 +203,8 @@ fn a_study_chooses_by_any_name() {
         [
             "encoder scale of azimuth",
             "encoder scale of elevation",
-            "refraction, tan of elevation",
-            "refraction, cot of elevation"
+            "refraction, cot of elevation",
+            "refraction, cube of cot of elevation"
         ]
     );
     let with = Asked::of(SCANNER, "target", "point", "[search]\neffects = [\"x10\"]\n");

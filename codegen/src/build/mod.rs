@@ -11,6 +11,7 @@ mod path;
 mod product;
 mod ramp;
 mod readings;
+mod sight;
 mod vectors;
 
 use model_core::{Chain, ObservableId, SymbolId, SymbolKind};

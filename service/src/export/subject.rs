@@ -166,6 +166,7 @@ impl Subject {
     pub fn at(&self, pose: usize, values: &[f64]) -> Vec<f64> {
         let mut all = values.to_vec();
         self.poses.readings.iter().for_each(|(id, column)| all[id.index()] = column[pose]);
+        self.chain.set_derived(&mut all);
         all
     }
 }

@@ -65,12 +65,12 @@ impl<'a> Bench<'a> {
     pub fn new(
         problem: &'a Problem,
         policy: &'a Policy,
-        lets: &dyn Fn(&Family) -> bool,
+        lets: &dyn Fn(&Family, &Places) -> bool,
     ) -> Result<Self, Error> {
         problem.check()?;
         let places = Places::of(problem, policy);
         let mut dictionary = Dictionary::of(problem, &places, policy);
-        dictionary.families.retain(|family| lets(family));
+        dictionary.keep(&|family| lets(family, &places));
         let scaling = Scaling::of(problem, policy)?;
         let estimates = problem.declared.iter().map(|error| error.estimate).collect();
         let points = vec![scaling.point(&places, &as_given(problem), estimates)];

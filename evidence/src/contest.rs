@@ -8,6 +8,7 @@ use crate::likelihood::Active;
 use crate::linearise::Linearise;
 use crate::margins::{Finding, findings};
 use crate::outcome::Outcome;
+use crate::places::Places;
 use crate::policy::Policy;
 use crate::problem::Problem;
 use crate::record::Stage;
@@ -31,7 +32,7 @@ pub fn contest<'a>(
     policy: &'a Policy,
     chain: Option<&'a dyn Linearise>,
 ) -> Result<Outcome<'a>, Error> {
-    contest_among(problem, policy, chain, &|_| true)
+    contest_among(problem, policy, chain, &|_, _| true)
 }
 
 /// Runs a contest among the families that a caller lets compete. Prices stay those of the whole dictionary; shapes
@@ -44,7 +45,7 @@ pub fn contest_among<'a>(
     problem: &'a Problem,
     policy: &'a Policy,
     chain: Option<&'a dyn Linearise>,
-    lets: &dyn Fn(&Family) -> bool,
+    lets: &dyn Fn(&Family, &Places) -> bool,
 ) -> Result<Outcome<'a>, Error> {
     let mut run = Run::new(problem, policy, chain, lets)?;
     run.causes_first()?;

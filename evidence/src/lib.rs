@@ -12,6 +12,7 @@
 mod algebra;
 mod average;
 mod bench;
+mod contenders;
 mod contest;
 mod design;
 mod driver;
@@ -43,6 +44,7 @@ mod subset;
 mod unpack;
 mod weigh;
 
+pub use contenders::Contenders;
 pub use contest::{contest, contest_among};
 pub use driver::Driver;
 pub use error::Error;

@@ -3,7 +3,7 @@
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use crate::average::{Moments, averaged, plain};
-use crate::bench::Model;
+use crate::bench::{Bench, Model};
 use crate::families::{Driver, Family, Law, Where};
 use crate::likelihood::Posterior;
 use crate::linearise::Amount;
@@ -88,6 +88,14 @@ pub struct Prediction {
 impl<'a> Outcome<'a> {
     pub(crate) fn new(run: Run<'a>, told: Model, findings: Vec<Finding>) -> Self {
         Self { run, told, findings }
+    }
+
+    pub(crate) fn bench(&self) -> &Bench<'a> {
+        &self.run.bench
+    }
+
+    pub(crate) fn told(&self) -> &Model {
+        &self.told
     }
 
     /// The causes of the explanation that is told, named or not.

@@ -6,6 +6,7 @@ use crate::families::Family;
 use crate::greedy::Greedy;
 use crate::likelihood::Active;
 use crate::linearise::Linearise;
+use crate::places::Places;
 use crate::policy::Policy;
 use crate::problem::Problem;
 use crate::record::Recorder;
@@ -35,7 +36,7 @@ impl<'a> Run<'a> {
         problem: &'a Problem,
         policy: &'a Policy,
         chain: Option<&'a dyn Linearise>,
-        lets: &dyn Fn(&Family) -> bool,
+        lets: &dyn Fn(&Family, &Places) -> bool,
     ) -> Result<Self, Error> {
         let bench = Bench::new(problem, policy, lets)?;
         Ok(Self {

@@ -163,16 +163,14 @@ pub(crate) fn whitened(
 ) -> Mat<f64> {
     let mut white = Mat::zeros(columns.nrows(), columns.ncols());
     let filter = memory.map(|memory| memory.filter(weights.len() / components));
-    let mut values = vec![0.0; weights.len()];
     for at in 0..columns.ncols() {
-        for (row, (value, weight)) in values.iter_mut().zip(weights).enumerate() {
-            *value = columns[(row, at)] * weight;
+        let Some(into) = white.col_mut(at).try_as_col_major_mut() else { continue };
+        let values = into.as_slice_mut();
+        for ((value, own), weight) in values.iter_mut().zip(columns.col(at).iter()).zip(weights) {
+            *value = own * weight;
         }
         if let Some(filter) = &filter {
-            filter.apply(0, &mut values, &mut vec![0.0; components]);
-        }
-        for (row, value) in values.iter().enumerate() {
-            white[(row, at)] = *value;
+            filter.apply(0, values, &mut vec![0.0; components]);
         }
     }
     white

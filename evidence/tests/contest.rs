@@ -92,7 +92,7 @@ fn only_what_a_caller_lets_compete_is_told() {
     let problem = problem(&Plan { amplitude: 3.0, order: 3.0, ..Plan::default() });
     let policy = Policy::default();
     let harmonics = |family: &evidence::families::Family| matches!(family.law, Law::Harmonic(1));
-    let outcome = contest_among(&problem, &policy, None, &harmonics).unwrap();
+    let outcome = contest_among(&problem, &policy, None, &|family, _| harmonics(family)).unwrap();
     assert!(outcome.families().iter().all(|family| harmonics(family) || family.is_noise()));
     assert!(outcome.findings().iter().all(|found| !found.named));
 }

@@ -51,6 +51,9 @@ const SLOWER: usize = 3;
 /// A step that was refused is followed by one of this length, where rows observe unknown objects.
 const SHORTER: f64 = 0.25;
 
+/// How often a course begins anew where angles came to another home.
+const HOMES: usize = 3;
+
 /// How often the noise is learned anew.
 const NOISE_ROUNDS: usize = 8;
 
@@ -64,9 +67,25 @@ const SCALE_SETTLED: f64 = 0.02;
 const GRADUAL: [f64; 2] = [3.0, 1.5];
 
 impl Solver<'_> {
-    /// From some values to the bottom, undetermined combinations still; robustly by degrees, from Huber's loss at the scale of
-    /// the medians to Tukey's at that of the noise.
+    /// From some values to the bottom, undetermined combinations still. Where an angle came to another home, what is determined there is
+    /// another matter, and the course begins anew from there.
     pub(super) fn course(&mut self, start: &[f64], weighting: Weighting) -> Result<Course, FitError> {
+        let mut best = self.course_at_home(start, weighting)?;
+        for _ in 0..HOMES {
+            if !self.has_turned(&best) {
+                break;
+            }
+            let other = self.course_at_home(&best.point.values, weighting)?;
+            if self.scale(&other) >= self.scale(&best) {
+                break;
+            }
+            best = other;
+        }
+        Ok(best)
+    }
+
+    /// From some values to the bottom, robustly by degrees, from Huber's loss at the scale of the medians to Tukey's at that of the noise.
+    fn course_at_home(&mut self, start: &[f64], weighting: Weighting) -> Result<Course, FitError> {
         self.brought = self.brought_at(start)?;
         let noise = Arc::new(self.first_noise(start)?);
         let subspace = self.determined(start, &noise)?;
@@ -292,7 +311,7 @@ impl Solver<'_> {
     fn rest_at(&self, values: &[f64], subspace: &Subspace, rest: &Rest) -> Rest {
         match rest {
             Rest::Still => Rest::Still,
-            Rest::Prior(_) => Rest::Prior(subspace.strain(&self.deviation(values))),
+            Rest::Prior(_) => Rest::Prior(subspace.strain(&self.deviation(values, subspace))),
         }
     }
 
@@ -325,7 +344,7 @@ impl Solver<'_> {
         let size = self.resolved_sizes(course)?;
         course.subspace = course.subspace.clone().resized(size);
         let values = self.with_smallest(&course.point.values, &course.subspace);
-        let rest = Rest::Prior(course.subspace.strain(&self.deviation(&values)));
+        let rest = Rest::Prior(course.subspace.strain(&self.deviation(&values, &course.subspace)));
         course.point = self.point(values, &course.noise, course.weighting, rest)?;
         let still = course.clone();
         self.descend_to_the_bottom(course)?;

@@ -39,10 +39,9 @@ impl Solver<'_> {
         other.subspace = free;
         self.settle(&mut other)?;
         let subspace = self.determined(&other.point.values, &other.noise)?;
-        let leaves = |course: &Course| self.ln_scale(&course.point.sweep.residual);
         if other.stopped.is_some()
             || subspace.rank() <= course.subspace.rank()
-            || leaves(&other) >= leaves(&course)
+            || self.scale(&other) >= self.scale(&course)
         {
             return Ok(course);
         }

@@ -39,6 +39,8 @@ pub enum Reason {
     NoDescent,
     /// It ended at a bottom, from which nothing is near what was measured, and so did other starts.
     FarOff,
+    /// It ended at a bottom where most rows lie so far from the rest that too few are left.
+    NoRest,
 }
 
 impl Outcome {

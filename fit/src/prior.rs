@@ -19,6 +19,7 @@ impl Solver<'_> {
         let partial = self.partial(&course.point.sweep);
         let root = course.subspace.covariance_root(&partial, &Rest::Still);
         let separable = course.subspace.separable();
+        let deviation = self.deviation(&course.point.values, &course.subspace);
         let mut largest: Vec<(Quantity, f64)> = Vec::new();
         for (at, &parameter) in self.model.parameters().iter().enumerate() {
             let symbol = self.chain.symbol(parameter);
@@ -27,7 +28,7 @@ impl Solver<'_> {
             }
             // What noise alone would make of it does not count.
             let variance: f64 = root.row(at).iter().map(|part| part * part).sum();
-            let size = (course.point.values[parameter.index()].powi(2) - variance).max(0.0).sqrt();
+            let size = (deviation[at].powi(2) - variance).max(0.0).sqrt();
             match largest.iter_mut().find(|(quantity, _)| *quantity == symbol.quantity) {
                 Some((_, known)) => *known = known.max(size),
                 None => largest.push((symbol.quantity, size)),

@@ -53,6 +53,9 @@ pub fn fit_by(
     let mut course = solver.arrived()?;
     solver.take_as_they_are(&mut course)?;
     solver.release(&mut course)?;
+    if options.other_starts && solver.doubtful(&course)? {
+        course = solver.from_other_homes(course)?;
+    }
     // Rows that are set aside only now leave few of them for what they now show.
     if solver.counts_in_full(&course) {
         course = solver.of_few(course)?;
@@ -146,8 +149,27 @@ impl Solver<'_> {
         let squares = self.course(&given, Weighting::Full)?;
         for start in [squares.point.values, given, self.nominal()] {
             let other = self.course(&start, self.options.weighting())?;
-            let scale = |course: &Course| self.ln_scale(&course.point.sweep.residual);
-            if scale(&other) < scale(&best) {
+            if self.scale(&other) < self.scale(&best) {
+                best = other;
+            }
+        }
+        Ok(best)
+    }
+
+    /// The best of a course and of those in which one joint counts from elsewhere. Lengths that are errors may take up what a turn does, and
+    /// with them small errors are no more what the data show.
+    fn from_other_homes(&mut self, course: Course) -> Result<Course, FitError> {
+        let mut best = course;
+        if self.observations.rows() > SAMPLE {
+            return Ok(best);
+        }
+        for start in self.other_homes() {
+            let mut other = self.course(&start, self.options.weighting())?;
+            if other.stopped.is_some() || self.scale(&other) >= self.scale(&best) {
+                continue;
+            }
+            self.release(&mut other)?;
+            if self.scale(&other) < self.scale(&best) {
                 best = other;
             }
         }
@@ -160,7 +182,11 @@ impl Solver<'_> {
         let (norms, weight) = self.norms_and_weights(&course);
         let kept = self.kept_components(&weight);
         let (uncertainty, shared) = self.uncertainty(&course, &weight)?;
-        let far_off = self.is_far_off(&course).then_some(Reason::FarOff);
+        let enough = self.layout.row_of_each().filter(|&row| course.point.sweep.defined[row]).count();
+        // Where most of rows enough lie far from the rest, there is no rest.
+        let is_lost = kept <= rank + of_objects && enough > (rank + of_objects).max(2 * kept);
+        let far_off =
+            self.is_far_off(&course).then_some(Reason::FarOff).or(is_lost.then_some(Reason::NoRest));
         let Course { point, noise, subspace, stopped, .. } = course;
         let noise = Arc::new(shared.in_noise(Arc::unwrap_or_clone(noise)));
         let mut whitened = point.sweep.residual.clone();
@@ -172,8 +198,8 @@ impl Solver<'_> {
         let values = unwound(self.chain, &parameters, point.values);
         let outcome = match far_off.or(stopped) {
             // Far off all noise is none, and no row near enough to count.
-            Some(Reason::FarOff) => {
-                Outcome::NotConverged { iterations: self.iterations, reason: Reason::FarOff }
+            Some(reason @ (Reason::FarOff | Reason::NoRest)) => {
+                Outcome::NotConverged { iterations: self.iterations, reason }
             }
             _ if kept <= rank + of_objects => Outcome::TooFewObservations {
                 components: kept,

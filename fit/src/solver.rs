@@ -10,6 +10,7 @@ use super::normal::Rest;
 use super::objects::Eliminated;
 use super::size::Size;
 use super::sweep::{Sweep, Weighting, residuals, sweep};
+use super::turns::home;
 use super::{FitError, FitOptions, Model, Partial, Reason, Subspace};
 use crate::noise::{self, Layout, Noise};
 use observe::Observations;
@@ -136,7 +137,7 @@ impl Solver<'_> {
         sweep.tally.partial.spread(self.model.column_of())
     }
 
-    /// What the data determine: every error at zero, constants where they are. Of an anchored fit, what they tell more of
+    /// What the data determine: every error at zero, an angle at whole quarter turns, constants where they are. Of an anchored fit, what they tell more of
     /// than the sizes do, where the errors are: only there are residuals no larger than the noise.
     pub(super) fn determined(&self, values: &[f64], noise: &Noise) -> Result<Subspace, FitError> {
         let model = self.model.for_determination();
@@ -149,14 +150,21 @@ impl Solver<'_> {
             let partial = self.partial(&swept(values)?);
             return Ok(Subspace::beyond(&partial, self.first_sizes()));
         }
+        let homes = self.homes_at(values);
         let mut values = values.to_vec();
-        for &parameter in self.model.parameters() {
+        for (&parameter, home) in self.model.parameters().iter().zip(&homes) {
             if self.chain.symbol(parameter).kind == SymbolKind::Error {
-                values[parameter.index()] = 0.0;
+                values[parameter.index()] = *home;
             }
         }
         let partial = self.partial(&swept(&values)?);
-        Ok(Subspace::determined(&partial, self.first_sizes()))
+        Ok(Subspace::determined(&partial, self.first_sizes()).at(homes))
+    }
+
+    /// The whole quarter turns of each parameter at some values, rad.
+    pub(super) fn homes_at(&self, values: &[f64]) -> Vec<f64> {
+        let of = |&id: &SymbolId| home(self.chain, id, values[id.index()]);
+        self.model.parameters().iter().map(of).collect()
     }
 
     /// Whether what the data determine hangs on where a course ended: not on errors, which are zero where it is asked.
@@ -165,19 +173,32 @@ impl Solver<'_> {
         self.options.anchored || !self.model.parameters().iter().all(is_error)
     }
 
-    /// How far each parameter is from where it is expected: an error from zero, a constant from its nominal value; SI.
-    pub(super) fn deviation(&self, values: &[f64]) -> Vec<f64> {
+    /// Whether an angle has another home than where the data were asked. An anchored fit asks where the errors are.
+    pub(super) fn has_turned(&self, course: &Course) -> bool {
+        !self.options.anchored && self.homes_at(&course.point.values) != course.subspace.homes()
+    }
+
+    /// How far each parameter is from where it is expected, SI: an error from zero, an angle from its whole quarter turns, a constant from its
+    /// nominal value.
+    pub(super) fn deviation(&self, values: &[f64], subspace: &Subspace) -> Vec<f64> {
+        let parameters = self.model.parameters().iter().zip(self.expected(subspace));
+        parameters.map(|(id, expected)| values[id.index()] - expected).collect()
+    }
+
+    /// Where each parameter is expected.
+    fn expected(&self, subspace: &Subspace) -> Vec<f64> {
         let nominal = self.chain.nominal_values();
-        self.model.parameters().iter().map(|id| values[id.index()] - nominal[id.index()]).collect()
+        let parameters = self.model.parameters().iter().zip(subspace.homes());
+        parameters.map(|(id, home)| nominal[id.index()] + home).collect()
     }
 
     /// Values that the data cannot tell from these to first order, as near as can be to where they are expected.
     pub(super) fn with_smallest(&self, values: &[f64], subspace: &Subspace) -> Vec<f64> {
-        let smallest = subspace.smallest(&self.deviation(values));
-        let nominal = self.chain.nominal_values();
+        let smallest = subspace.smallest(&self.deviation(values, subspace));
         let mut values = values.to_vec();
-        for (parameter, deviation) in self.model.parameters().iter().zip(smallest) {
-            values[parameter.index()] = nominal[parameter.index()] + deviation;
+        let expected = self.expected(subspace).into_iter().zip(smallest);
+        for (parameter, (expected, deviation)) in self.model.parameters().iter().zip(expected) {
+            values[parameter.index()] = expected + deviation;
         }
         values
     }
@@ -199,6 +220,11 @@ impl Solver<'_> {
     /// The logarithm of how large residuals are by their medians, the mean over all components.
     pub(super) fn ln_scale(&self, residual: &[f64]) -> f64 {
         noise::ln_scale(self.observations, &self.layout, residual)
+    }
+
+    /// The same of a course.
+    pub(super) fn scale(&self, course: &Course) -> f64 {
+        self.ln_scale(&course.point.sweep.residual)
     }
 
     /// Per row the norm of its whitened components and its weight; rows without a value have none.

@@ -2,12 +2,15 @@
 //!
 //! Errors of a radian may lie behind a ridge, seen from zero. A bottom beyond it is told by what is left there.
 
+use std::f64::consts::FRAC_PI_2;
+
 use model_core::{Quantity, SymbolId};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 use super::solver::{Course, Solver};
+use super::turns::is_index;
 use super::{FitError, robust};
 use observe::SiUnit;
 
@@ -23,6 +26,9 @@ const DRAWN_RAD: f64 = 1.0;
 
 /// Starts that are drawn, at most.
 const STARTS: u64 = 12;
+
+/// Quarter turns by which a joint's zero may be elsewhere.
+const QUARTERS: [f64; 3] = [1.0, -1.0, 2.0];
 
 impl Solver<'_> {
     /// Whether half of the directions, or of what is seen of unknown objects, are so far off that no noise explains it.
@@ -53,6 +59,21 @@ impl Solver<'_> {
             }
         }
         Ok(best)
+    }
+
+    /// Starts at which one joint counts from a quarter or half turn away, where its index is estimated; none beside unknown objects.
+    pub(super) fn other_homes(&self) -> Vec<Vec<f64>> {
+        if self.observations.unknowns.is_some() {
+            return Vec::new();
+        }
+        let given = self.with_state(self.options.start.clone());
+        let turned = |id: &SymbolId, quarters: f64| {
+            let mut start = given.clone();
+            start[id.index()] += quarters * FRAC_PI_2;
+            start
+        };
+        let indices = self.model.parameters().iter().filter(|id| is_index(self.chain, **id));
+        indices.flat_map(|id| QUARTERS.map(|quarters| turned(id, quarters))).collect()
     }
 
     /// How far off half of the directions are, rad; `None` where anything else is measured, of which nobody knows how large

@@ -39,6 +39,8 @@ pub struct Subspace {
     pivots: Vec<usize>,
     /// The change of each parameter that counts as one, SI.
     size: Vec<f64>,
+    /// The whole quarter turns about which each parameter was asked for, rad; zero for others than angles.
+    homes: Vec<f64>,
     /// Orthonormal combinations of parameters in units of their size: p − rank undetermined ones, then the determined. p × p.
     axes: Mat<f64>,
 }
@@ -69,6 +71,18 @@ impl Subspace {
             Err(_) => Mat::identity(p, p),
         };
         Self::without(unseen, &[], scale, partial, false).resized(size)
+    }
+
+    /// The same, asked with each parameter at so many quarter turns, rad, length p.
+    #[must_use]
+    pub fn at(self, homes: Vec<f64>) -> Self {
+        Self { homes, ..self }
+    }
+
+    /// The whole quarter turns about which each parameter was asked for, rad.
+    #[must_use]
+    pub fn homes(&self) -> &[f64] {
+        &self.homes
     }
 
     /// What the rows tell more of than the sizes do: combinations whose standard uncertainty from the whitened rows is below
@@ -109,17 +123,19 @@ impl Subspace {
             parts.filter(|(part, unnoticed)| part.abs() <= **unnoticed).for_each(|(part, _)| *part = 0.0);
         }
         let axes = Mat::zeros(scale.len(), scale.len());
-        Self { partial: partial.clone(), is_beyond, scale, unseen, pivots, size: Vec::new(), axes }
+        let homes = vec![0.0; scale.len()];
+        Self { partial: partial.clone(), is_beyond, scale, unseen, pivots, size: Vec::new(), homes, axes }
     }
 
     /// What the rows tell of the first so many parameters, as if there were no others.
     #[must_use]
     pub fn of_first(&self, count: usize) -> Self {
         let partial = self.partial.spread(&(0..count).map(Some).collect::<Vec<_>>());
-        match self.is_beyond {
+        let first = match self.is_beyond {
             true => Self::beyond(&partial, self.scale[..count].iter().map(|scale| 1.0 / scale).collect()),
             false => Self::determined(&partial, self.size[..count].to_vec()),
-        }
+        };
+        first.at(self.homes[..count].to_vec())
     }
 
     /// The same combinations with other sizes.

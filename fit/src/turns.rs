@@ -1,9 +1,10 @@
-//! Whole turns of an angle: a fit that came round came to where it would have come without.
+//! Whole turns of an angle: a fit that came round came to where it would have come without. And quarter turns: an angle that is zero
+//! where it was not declared to be.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use model_core::algebra::Poly;
-use model_core::{Chain, Quantity, SymbolId, TransformKind};
+use model_core::{Body, Chain, Factor, Quantity, Role, SymbolId, SymbolKind, TransformKind};
 
 /// Values with each angle that was estimated within half a turn of zero, where nothing but rotations by it hangs on it.
 pub(super) fn unwound(chain: &Chain, parameters: &[SymbolId], mut values: Vec<f64>) -> Vec<f64> {
@@ -15,6 +16,29 @@ pub(super) fn unwound(chain: &Chain, parameters: &[SymbolId], mut values: Vec<f6
         }
     }
     values
+}
+
+/// The whole quarter turns in the value of an error that is an angle, rad: its home, about which it is small. No quarter turn for others.
+pub(super) fn home(chain: &Chain, id: SymbolId, value: f64) -> f64 {
+    let quarters = (value / FRAC_PI_2).round();
+    let turns = quarters != 0.0
+        && quarters.is_finite()
+        && chain.symbol(id).kind == SymbolKind::Error
+        && only_turns(chain, id);
+    if turns { quarters * FRAC_PI_2 } else { 0.0 }
+}
+
+/// Whether an error is the index of a joint: a turn about the axis of its body's motion, and nothing else.
+pub(super) fn is_index(chain: &Chain, id: SymbolId) -> bool {
+    let has_it = |factor: &&Factor| !factor.amount.derivative(id).is_zero();
+    let of_motion = |body: &Body| {
+        let own = body.factors.iter().find(has_it)?;
+        let motion = |factor: &Factor| {
+            factor.role == Role::Motion && factor.kind == own.kind && factor.axis == own.axis
+        };
+        Some(own.role == Role::MotionError && body.factors.iter().any(motion))
+    };
+    only_turns(chain, id) && chain.bodies.iter().find_map(of_motion) == Some(true)
 }
 
 /// Whether a whole turn of an angle changes nothing.
@@ -31,6 +55,34 @@ fn only_turns(chain: &Chain, id: SymbolId) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_home_of_a_turning_error_is_its_whole_quarter_turns() {
+        let chain = Chain::from_text(
+            "chain Arm {
+                body link on ground { motion: Rz(q); motion_error: Rz(index), Ry(slope*q), Tx(length); }
+                body tip on link { position: Rz(pose); }
+                estimate const pose: angle = 1.6;
+                observe tip: point(1, 0, 0) of tip;
+            }",
+        )
+        .expect("a chain");
+        let home = |name: &str, degrees: f64| {
+            let id = chain.find_symbol(name).expect("a name");
+            home(&chain, id, degrees.to_radians()).to_degrees()
+        };
+        for (value, wanted) in [(3.0, 0.0), (-44.0, 0.0), (91.0, 90.0), (-182.0, -180.0), (f64::NAN, 0.0)] {
+            assert!((home("index", value) - wanted).abs() < 1e-9, "{value}");
+        }
+        for name in ["slope", "length", "pose"] {
+            assert_eq!(home(name, 91.0), 0.0, "{name}");
+        }
+        let indices: Vec<&str> = ["index", "slope", "length", "pose"]
+            .into_iter()
+            .filter(|name| is_index(&chain, chain.find_symbol(name).expect("a name")))
+            .collect();
+        assert_eq!(indices, ["index"]);
+    }
 
     #[test]
     fn an_angle_that_came_round_is_within_half_a_turn_and_nothing_else_changes() {

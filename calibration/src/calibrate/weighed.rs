@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::memory::remembering;
 use super::rounds::{names, taken_up};
-use crate::contest::{Contest, Hypothesis, Told, is_asked};
+use crate::contest::{Contest, Hypothesis, Repeated, Told, is_asked};
 use crate::diagnose::Caution;
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
@@ -57,7 +57,9 @@ pub(super) fn explained<'a>(
                 let as_told = again.causes.iter().find(|told| told.effect == found.effect);
                 as_told.into_iter().for_each(|told| found.clone_from(told));
             }
-            return Ok(Some((next.explained_by(Arc::new(contest)), again.contest)));
+            let Some(among) = again.again else { return Ok(None) };
+            let repeated = Repeated { contest, among };
+            return Ok(Some((next.explained_by(Arc::new(repeated)), again.contest)));
         }
         told = again;
         last = Some(next);

@@ -10,8 +10,8 @@ mod recorded;
 pub use recorded::Hypothesis;
 use recorded::leader;
 
-use evidence::families::Law;
-use evidence::{Outcome, Policy, Problem, contest};
+use evidence::families::{Family, Law};
+use evidence::{Contenders, Outcome, Places, Policy, Problem, contest, contest_among};
 
 use crate::search::SearchError;
 use crate::search::context::{Context, Found};
@@ -41,6 +41,8 @@ pub(crate) struct Told {
     pub column: Option<String>,
     /// Who competed.
     pub contest: Vec<Hypothesis>,
+    /// Who competes again where the contest is repeated.
+    pub again: Option<Contenders>,
 }
 
 impl Told {
@@ -101,7 +103,7 @@ impl Contest {
             }
         }
         let contest = recorded::recorded(&best, self.policy.even);
-        Some(Told { column: by, contest, ..self.read(&best) })
+        Some(Told { column: by, contest, again: Some(best.contenders()), ..self.read(&best) })
     }
 
     /// The problem with rows labelled by each column that the study does not name; none where they have labels.
@@ -153,10 +155,18 @@ impl Contest {
     }
 }
 
-impl Explains for Contest {
+/// A contest that is repeated on some of its rows, among those who gained something of all.
+pub(crate) struct Repeated {
+    pub contest: Contest,
+    pub among: Contenders,
+}
+
+impl Explains for Repeated {
     fn of_rows(&self, stay: &[bool]) -> Vec<EffectId> {
-        let some = self.asked.problem.of_rows(stay);
-        let told = self.of(&some).map(|outcome| self.read(&outcome));
-        told.map_or_else(Vec::new, |told| told.causes.iter().map(|found| found.effect).collect())
+        let Self { contest, among } = self;
+        let some = contest.asked.problem.of_rows(stay);
+        let lets = |family: &Family, places: &Places| among.has(family, places);
+        let Ok(outcome) = contest_among(&some, &contest.policy, None, &lets) else { return Vec::new() };
+        contest.read(&outcome).causes.iter().map(|found| found.effect).collect()
     }
 }

@@ -26,6 +26,12 @@ pub enum Ended {
         /// Steps taken.
         steps: usize,
     },
+    /// At a minimum where most rows lie so far from the rest that too few are left.
+    #[serde(rename = "no rest")]
+    NoRest {
+        /// Steps taken.
+        steps: usize,
+    },
     /// With fewer residual components than it takes to determine what was asked for.
     #[serde(rename = "too few observations")]
     TooFewObservations {
@@ -44,6 +50,9 @@ impl From<&Outcome> for Ended {
             Outcome::Converged { iterations } => Self::Converged { steps: iterations },
             Outcome::NotConverged { iterations, reason: Reason::FarOff } => {
                 Self::FarOff { steps: iterations }
+            }
+            Outcome::NotConverged { iterations, reason: Reason::NoRest } => {
+                Self::NoRest { steps: iterations }
             }
             Outcome::NotConverged { iterations, .. } => Self::NotConverged { steps: iterations },
             Outcome::TooFewObservations { components, parameters, of_objects, .. } => {

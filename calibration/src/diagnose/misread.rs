@@ -29,7 +29,8 @@ pub(super) fn misread(
         return vec![Caution::ColumnMisread(columns.clone())];
     }
     let (request, fit) = (whole.request, &last.fit);
-    let has_failed = matches!(ended, Ended::NotConverged { .. } | Ended::FarOff { .. });
+    let has_failed =
+        matches!(ended, Ended::NotConverged { .. } | Ended::FarOff { .. } | Ended::NoRest { .. });
     if let Some(mistake) = doubt(&cautions, has_failed).and_then(|doubt| otherwise(whole, doubt)) {
         cautions.retain(|caution| !follows(caution));
         cautions.insert(0, Caution::FitsOtherwise(mistake));

@@ -92,7 +92,9 @@ pub(super) fn verdict(evidence: Evidence<'_>) -> Verdict {
     }
     match evidence.ended {
         Ended::TooFewObservations { .. } => return Verdict::TooFewObservations,
-        Ended::NotConverged { .. } | Ended::FarOff { .. } => return Verdict::FitFailed,
+        Ended::NotConverged { .. } | Ended::FarOff { .. } | Ended::NoRest { .. } => {
+            return Verdict::FitFailed;
+        }
         Ended::Converged { .. } if any(|caution| matches!(caution, Caution::Implausible { .. })) => {
             return Verdict::FitFailed;
         }

@@ -242,11 +242,30 @@ impl Dictionary {
         }
         if !problem.offered.is_empty() {
             // What is told has to have a name that the caller knows.
-            dictionary.families.retain(|family| !family.is_named());
+            dictionary.keep(&|family| !family.is_named());
             offered::offer(problem, places, policy, &mut dictionary);
         }
         dictionary.set_prices(&problem.rows, policy);
         dictionary
+    }
+
+    /// Leaves out families, and columns that no other one needs.
+    pub(crate) fn keep(&mut self, wanted: &dyn Fn(&Family) -> bool) {
+        self.families.retain(wanted);
+        let all = std::mem::take(&mut self.columns);
+        self.by_place.clear();
+        let mut renumbered: Vec<Option<usize>> = vec![None; all.len()];
+        for at in 0..self.families.len() {
+            for own in 0..self.families[at].columns.len() {
+                let old = self.families[at].columns[own];
+                let new = match renumbered[old] {
+                    Some(new) => new,
+                    None => self.column(all[old].terms.clone()),
+                };
+                renumbered[old] = Some(new);
+                self.families[at].columns[own] = new;
+            }
+        }
     }
 
     /// The number of a column, new or known.

@@ -334,6 +334,9 @@ fn happened(diagnosis: &Diagnosis) -> String {
                 Ended::FarOff { .. } => {
                     "After the fit, half of the directions miss by more than 11°.".to_owned()
                 }
+                Ended::NoRest { .. } => {
+                    "After the fit, most rows lie far from where the declaration puts them.".to_owned()
+                }
                 Ended::Converged { .. } | Ended::TooFewObservations { .. } => {
                     "The fit found no minimum.".to_owned()
                 }
@@ -383,7 +386,10 @@ fn too_few(diagnosis: &Diagnosis) -> String {
                 diagnosis.fit.rank[1]
             )
         }
-        Ended::Converged { .. } | Ended::NotConverged { .. } | Ended::FarOff { .. } => {
+        Ended::Converged { .. }
+        | Ended::NotConverged { .. }
+        | Ended::FarOff { .. }
+        | Ended::NoRest { .. } => {
             "One effect may be missing, but fewer than six rows support it. The model was not changed."
                 .to_owned()
         }

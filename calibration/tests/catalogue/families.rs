@@ -119,6 +119,32 @@ fn compliance_follows_the_lever_of_each_weight() {
     }
 }
 
+/// A torso carries both arms, whichever hand is observed: the lever of the other hand, by plain trigonometry.
+#[test]
+fn compliance_counts_the_other_arm() {
+    let text = "chain TwoArms {
+        body torso on ground { motion: Ry(lean); motion_error: Ry(dlean); }
+        body left on torso { position: Ty(0.2), Tz(0.5); motion: Ry(left_shoulder); }
+        body left_hand on left { position: Tx(0.6); position_error: Tx(dx); }
+        body right on torso { position: Ty(-0.2), Tz(0.5); motion: Ry(right_shoulder); }
+        body right_hand on right { position: Tx(0.7); }
+        observe tip: point(0, 0, 0) of left_hand;
+    }";
+    let asked = Asked::of(text, "tip", "point", "[columns]\nright_shoulder = { column = \"r\" }\n");
+    let (catalogue, chain) = (asked.catalogue(), &asked.plan.chain);
+    let of = |name: &str| catalogue.iter().find(|effect| effect.name == name);
+    let effect = of("compliance of lean under the weight of right_hand").unwrap();
+    let mut values = chain.nominal_values();
+    let (lean, shoulder) = (0.4_f64, -1.3_f64);
+    values[chain.find_symbol("lean").unwrap().index()] = lean;
+    values[chain.find_symbol("right_shoulder").unwrap().index()] = shoulder;
+    let level = 0.5 * lean.sin() + 0.7 * (lean + shoulder).cos();
+    approx::assert_relative_eq!(effect.functions[0].amount.eval(&values), level, epsilon = 1e-12);
+    // What the other shoulder carries does not wind up this one, and the other shoulder moves nothing that is observed.
+    assert!(of("compliance of left_shoulder under the weight of right_hand").is_none());
+    assert!(of("compliance of right_shoulder under the weight of right_hand").is_none());
+}
+
 #[test]
 fn what_moves_nothing_is_no_candidate() {
     let chain = example("alt-azimuth/alt-azimuth.chain");

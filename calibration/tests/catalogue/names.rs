@@ -20,6 +20,9 @@ fn frame(a: SymbolId, e: SymbolId) -> [[Poly; 3]; 3] {
 /// A published formula, read with the chain's own symbols; `None` for a formula of another mount.
 fn formula(text: &str, chain: &Chain, mount: &Mount) -> Option<Poly> {
     let resolve = |name: &str| {
+        if name == "z" {
+            return chain.sight_angles.first().map(|angle| angle.symbol);
+        }
         let joint = mount.letters.iter().position(|letter| *letter == name).map(|at| mount.joints[at]);
         chain.find_symbol(joint.unwrap_or(if name == "R" { "range" } else { name }))
     };

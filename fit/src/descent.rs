@@ -61,7 +61,7 @@ const NOISE_ROUNDS: usize = 8;
 const SCALE_ROUNDS: usize = 10;
 
 /// A scale that shrinks by less than this share has settled.
-const SCALE_SETTLED: f64 = 0.02;
+pub(super) const SCALE_SETTLED: f64 = 0.02;
 
 /// From Huber's loss to Tukey's: how much larger than its own the noise is taken first.
 const GRADUAL: [f64; 2] = [3.0, 1.5];
@@ -76,7 +76,8 @@ impl Solver<'_> {
                 break;
             }
             let other = self.course_at_home(&best.point.values, weighting)?;
-            if self.scale(&other) >= self.scale(&best) {
+            // The same bottom is another matter at its home.
+            if self.scale(&other) > self.scale(&best) + SCALE_SETTLED {
                 break;
             }
             best = other;

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use model_core::Chain;
 
 use super::align::starting_values;
+use super::descent::SCALE_SETTLED;
 use super::solver::{Course, Solver};
 use super::sweep::{Weighting, residuals};
 use super::turns::unwound;
@@ -52,8 +53,13 @@ pub fn fit_by(
     let mut solver = Solver::new(model, chain, observations, options);
     let mut course = solver.arrived()?;
     solver.take_as_they_are(&mut course)?;
+    let arrived = solver.scale(&course);
     solver.release(&mut course)?;
-    if options.other_starts && solver.doubtful(&course)? {
+    // Small errors are not what the data show.
+    let is_pulled_off = solver.scale(&course) > arrived + SCALE_SETTLED;
+    if options.other_starts
+        && (is_pulled_off || solver.has_long_errors(&course) || solver.doubtful(&course)?)
+    {
         course = solver.from_other_homes(course)?;
     }
     // Rows that are set aside only now leave few of them for what they now show.
@@ -156,8 +162,7 @@ impl Solver<'_> {
         Ok(best)
     }
 
-    /// The best of a course and of those in which one joint counts from elsewhere. Lengths that are errors may take up what a turn does, and
-    /// with them small errors are no more what the data show.
+    /// The best of a course and of those in which one joint counts from elsewhere.
     fn from_other_homes(&mut self, course: Course) -> Result<Course, FitError> {
         let mut best = course;
         if self.observations.rows() > SAMPLE {
@@ -165,11 +170,13 @@ impl Solver<'_> {
         }
         for start in self.other_homes() {
             let mut other = self.course(&start, self.options.weighting())?;
-            if other.stopped.is_some() || self.scale(&other) >= self.scale(&best) {
+            // Another home of the same bottom says nothing more.
+            let least = self.scale(&best) - SCALE_SETTLED;
+            if other.stopped.is_some() || self.scale(&other) >= least {
                 continue;
             }
             self.release(&mut other)?;
-            if self.scale(&other) < self.scale(&best) {
+            if self.scale(&other) < least {
                 best = other;
             }
         }

@@ -4,7 +4,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use model_core::{Quantity, SymbolId};
+use model_core::{Quantity, SymbolId, SymbolKind};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -26,6 +26,9 @@ const DRAWN_RAD: f64 = 1.0;
 
 /// Starts that are drawn, at most.
 const STARTS: u64 = 12;
+
+/// The share of all lengths of a declaration from which on an error may stand for a turn. It decides what is tried, not what is told.
+const LONG_ERROR: f64 = 0.05;
 
 /// Quarter turns by which a joint's zero may be elsewhere.
 const QUARTERS: [f64; 3] = [1.0, -1.0, 2.0];
@@ -59,6 +62,21 @@ impl Solver<'_> {
             }
         }
         Ok(best)
+    }
+
+    /// Whether an error is so large a part of the lengths of the declaration that it may stand for a turn.
+    pub(super) fn has_long_errors(&self, course: &Course) -> bool {
+        let nominal = self.chain.nominal_values();
+        let constants = self.chain.symbols_of(SymbolKind::Constant);
+        let lengths = constants.filter(|id| self.chain.symbol(*id).quantity == Quantity::Length);
+        let reach_m: f64 = lengths.map(|id| nominal[id.index()].abs()).sum();
+        let deviation = self.deviation(&course.point.values, &course.subspace);
+        let mut errors = self.model.parameters().iter().zip(deviation);
+        errors.any(|(id, deviation)| {
+            let symbol = self.chain.symbol(*id);
+            let is_length = symbol.kind == SymbolKind::Error && symbol.quantity == Quantity::Length;
+            is_length && reach_m > 0.0 && deviation.abs() > LONG_ERROR * reach_m
+        })
     }
 
     /// Starts at which one joint counts from a quarter or half turn away, where its index is estimated; none beside unknown objects.

@@ -1,7 +1,8 @@
 //! The combinations of parameters that data determine: those whose columns, with every error at zero, are independent.
 //!
 //! What only products of errors would show is not determined, however large the errors come out: the same declaration and
-//! the same poses always determine the same combinations.
+//! the same poses always determine the same combinations. An angle that came out near a quarter turn is no small error: a joint whose
+//! zero is elsewhere. It stands at its whole quarter turns instead, where the instrument is another one.
 
 use faer::{Mat, MatRef};
 

@@ -3,6 +3,7 @@
 
 mod align;
 mod coverage;
+mod homes;
 mod kinds;
 mod nasty;
 mod orientations;

@@ -1,5 +1,6 @@
 //! Estimates as an errors file, which `apply`, `eval` and `calibrate` read again.
 
+use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use calibration::diagnose::ErrorFound;
@@ -27,7 +28,7 @@ pub fn found_over(reported: &Reported<'_>) -> Option<Vec<FoundOver>> {
     let amended = Chain::from_text(calibration.amended.as_ref()?).unwrap_or_else(|mistakes| {
         unreachable!("an amended text is read before it is given out: {mistakes}")
     });
-    let mut over = ranges_of(reported.observations, &calibration.after.residuals.weight);
+    let mut over = ranges_of(&calibration.chain, reported.observations, &calibration.after.residuals.weight);
     // A side quantity that no effect needed is none of the amended chain's.
     over.retain(|range| amended.find_symbol(&calibration.chain.symbol(range.symbol).name).is_some());
     Some(over)
@@ -97,18 +98,27 @@ pub(crate) fn ranges_of_readings(chain: &Chain, over: &[FoundOver]) -> String {
 }
 
 /// The ranges of the readings of the rows that count, SI; nothing of a column without a finite number.
-fn ranges_of(observations: &Observations, weight: &[f64]) -> Vec<FoundOver> {
+fn ranges_of(chain: &Chain, observations: &Observations, weight: &[f64]) -> Vec<FoundOver> {
     let mut ranges = Vec::new();
     for (symbol, column) in &observations.poses.columns {
         let counted = column.iter().zip(weight).filter(|(value, weight)| value.is_finite() && **weight > 0.0);
-        let (low, high) = counted.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (value, _)| {
-            (low.min(*value), high.max(*value))
-        });
-        if low <= high {
-            ranges.push(FoundOver { symbol: *symbol, low, high });
-        }
+        let mut values: Vec<f64> = counted.map(|(value, _)| *value).collect();
+        values.sort_by(f64::total_cmp);
+        let (Some(&low), Some(&high)) = (values.first(), values.last()) else { continue };
+        let declared = chain.symbol(*symbol);
+        let is_joint = declared.kind == SymbolKind::Joint && declared.quantity == Quantity::Angle;
+        let high = if is_joint && is_round(&values) { low + TAU } else { high };
+        ranges.push(FoundOver { symbol: *symbol, low, high });
     }
     ranges
+}
+
+/// Whether readings, sorted, rad, go round the circle: what lies between the last and the first is no more than between two others.
+fn is_round(values: &[f64]) -> bool {
+    let widest = values.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+    let (Some(low), Some(high)) = (values.first(), values.last()) else { return false };
+    let left = TAU - (high - low);
+    left > 0.0 && left <= widest
 }
 
 /// A name as a key of TOML: quoted where it has letters that a bare key cannot have.
@@ -144,6 +154,14 @@ fn remark(error: &ErrorFound) -> String {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
+
+    #[test]
+    fn readings_all_round_leave_no_gap_where_the_circle_is_cut() {
+        let round: Vec<f64> = (-179..180).step_by(2).map(|degrees| f64::from(degrees).to_radians()).collect();
+        assert!(is_round(&round));
+        assert!(!is_round(&round[..round.len() - 4]));
+        assert!(!is_round(&[]) && !is_round(&[0.1]));
+    }
 
     use calibration::amend::{Addition, amend, with_quantities_of};
     use effects::candidate::Setting;

@@ -154,7 +154,7 @@ pub struct ObserveStatement {
     /// The name of the body in whose frame it is seen, if one is given.
     pub frame: Option<Ident>,
     /// How its line of sight is bent.
-    pub bent: Option<BentTerm>,
+    pub bent: Option<Box<BentTerm>>,
     /// The last word before the `;`.
     pub last: Span,
 }

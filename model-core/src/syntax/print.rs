@@ -6,7 +6,7 @@ use std::fmt::{self, Display, Formatter};
 use super::ORIENTATION;
 use super::amount::{FUNCTIONS, RAMP};
 use super::declaration::{
-    AxisTerm, BentTerm, BetweenTerm, BodyStatement, ConstantStatement, Declaration, FactorGroup, FactorTerm,
+    AxisTerm, BetweenTerm, BodyStatement, ConstantStatement, Declaration, FactorGroup, FactorTerm,
     GravityStatement, InputStatement, ObserveStatement, ReadingTerm, Statement, SymbolStatement,
 };
 use crate::expr::{Expr, Node};
@@ -82,8 +82,8 @@ impl Display for Declaration {
                     if let Some(frame) = frame {
                         write!(f, " in {frame}")?;
                     }
-                    if let Some(BentTerm { amount, .. }) = bent {
-                        write!(f, ", bent up by {}", Written(amount.as_ref()))?;
+                    if let Some(bent) = bent {
+                        write!(f, ", bent up by {}", Written(bent.amount.as_ref()))?;
                     }
                     writeln!(f, ";")?;
                 }

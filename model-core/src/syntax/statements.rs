@@ -251,14 +251,14 @@ fn between(reader: &mut Reader<'_, '_>) -> Read<BetweenTerm> {
 }
 
 /// `, bent up by refraction*tan(zenith)`
-fn bent(reader: &mut Reader<'_, '_>) -> Read<Option<BentTerm>> {
+fn bent(reader: &mut Reader<'_, '_>) -> Read<Option<Box<BentTerm>>> {
     if reader.mark(',').is_none() {
         return Ok(None);
     }
     let keyword = reader.keyword("bent", BENT_HELP)?;
     reader.keyword("up", BENT_HELP)?;
     reader.keyword("by", BENT_HELP)?;
-    Ok(Some(BentTerm { keyword, amount: amount::part(reader) }))
+    Ok(Some(Box::new(BentTerm { keyword, amount: amount::part(reader) })))
 }
 
 /// What stands behind a colon, if there is one.

@@ -5,6 +5,7 @@
 
 use std::collections::HashMap;
 
+use model_core::chain::sight::SightAngle;
 use model_core::ramp::Ramp;
 use model_core::{Chain, SymbolId, SymbolKind};
 
@@ -34,6 +35,7 @@ pub(crate) struct Builder {
     shared: HashMap<Op, NodeId>,
     symbol_stages: Vec<Stage>,
     ramps: Vec<Ramp>,
+    sight_angles: Vec<SightAngle>,
     /// Symbols that are numbers, by their index.
     numbers: Vec<Option<f64>>,
 }
@@ -52,7 +54,9 @@ impl Builder {
             .iter()
             .map(|symbol| match symbol.kind {
                 SymbolKind::Pi | SymbolKind::Error | SymbolKind::Constant => Stage::Prepared,
-                SymbolKind::Joint | SymbolKind::Input | SymbolKind::Ramp => Stage::Evaluated,
+                SymbolKind::Joint | SymbolKind::Input | SymbolKind::Ramp | SymbolKind::SightAngle => {
+                    Stage::Evaluated
+                }
             })
             .collect();
         let mut numbers: Vec<Option<f64>> = vec![None; chain.symbols.len()];
@@ -66,7 +70,8 @@ impl Builder {
             numbers[id.index()] = Some(value);
         }
         let (nodes, stages, shared) = (Vec::new(), Vec::new(), HashMap::new());
-        let mut builder = Self { nodes, stages, shared, symbol_stages, ramps: chain.ramps.clone(), numbers };
+        let (ramps, sight_angles) = (chain.ramps.clone(), chain.sight_angles.clone());
+        let mut builder = Self { nodes, stages, shared, symbol_stages, ramps, sight_angles, numbers };
         builder.constant(0.0);
         builder.constant(1.0);
         builder
@@ -93,6 +98,17 @@ impl Builder {
     /// The ramp that a symbol stands for.
     pub(crate) fn ramp(&self, symbol: SymbolId) -> Option<Ramp> {
         self.ramps.iter().find(|ramp| ramp.symbol == symbol).cloned()
+    }
+
+    /// The angle of a line of sight that a symbol stands for.
+    pub(crate) fn sight_angle(&self, symbol: SymbolId) -> Option<SightAngle> {
+        self.sight_angles.iter().find(|angle| angle.symbol == symbol).cloned()
+    }
+
+    /// The angles of lines of sight that depend on a symbol.
+    pub(crate) fn sight_angles_of(&self, symbol: SymbolId) -> Vec<SightAngle> {
+        let depends = |angle: &&SightAngle| angle.depends_on().any(|id| id == symbol);
+        self.sight_angles.iter().filter(depends).cloned().collect()
     }
 
     /// The ramps that depend on a symbol.

@@ -75,6 +75,7 @@ impl Model {
                 SymbolKind::Input => "an input",
                 SymbolKind::Pi => "a number",
                 SymbolKind::Ramp => "a ramp",
+                SymbolKind::SightAngle => "the angle of a line of sight",
             };
             return Err(FitError::NotEstimable { name: symbol.name.clone(), kind });
         }

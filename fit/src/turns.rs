@@ -43,7 +43,7 @@ pub(super) fn is_index(chain: &Chain, id: SymbolId) -> bool {
 
 /// Whether a whole turn of an angle changes nothing.
 fn only_turns(chain: &Chain, id: SymbolId) -> bool {
-    let mut factors = chain.bodies.iter().flat_map(|body| &body.factors);
+    let mut factors = chain.factors();
     chain.symbol(id).quantity == Quantity::Angle
         && factors.all(|factor| {
             let by = factor.amount.derivative(id);

@@ -22,7 +22,7 @@ pub struct Caution {
 #[must_use]
 pub fn cautions(chain: &Chain) -> Vec<Caution> {
     let is_error = |id: SymbolId| chain.symbol(id).kind == SymbolKind::Error;
-    let amounts = || chain.bodies.iter().flat_map(|body| &body.factors).map(|factor| &factor.amount);
+    let amounts = || chain.factors().map(|factor| &factor.amount);
     let mut acts_alone = vec![false; chain.symbols.len()];
     for amount in amounts() {
         for symbol in amount.graded_part(is_error, 1).symbols() {

@@ -3,6 +3,7 @@
 //! It has no places in a source text; those stay in [`crate::syntax`].
 
 pub mod reading;
+pub mod sight;
 
 use std::borrow::Cow;
 
@@ -10,6 +11,7 @@ use crate::algebra::Poly;
 use crate::ramp::Ramp;
 use crate::symbol::{Symbol, SymbolId, SymbolKind};
 use reading::Reading;
+use sight::{Bend, SightAngle};
 
 /// A body of one chain: an index into [`Chain::bodies`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -34,6 +36,8 @@ pub struct Chain {
     pub observables: Vec<Observable>,
     /// The ramps that amounts use, in order; each is a symbol of its own.
     pub ramps: Vec<Ramp>,
+    /// The angles between directions and up that it has names for.
+    pub sight_angles: Vec<SightAngle>,
     /// Where down is, in the ground frame; need not be of length one. −z unless declared.
     pub gravity: [Poly; 3],
 }
@@ -131,6 +135,8 @@ pub struct Observable {
     pub frame: Option<BodyId>,
     /// The numbers that it shows of its vector, one to three; the components x, y, z unless the declaration says otherwise.
     pub shown: Vec<Reading>,
+    /// How the line of sight is bent on its way to the target.
+    pub bend: Option<Bend>,
 }
 
 /// One elementary transform on the way to an observable.
@@ -194,6 +200,19 @@ impl Chain {
         u16::try_from(index).ok().map(ObservableId)
     }
 
+    /// Every factor of every body, then those that bend lines of sight.
+    pub fn factors(&self) -> impl Iterator<Item = &Factor> {
+        let bends = self.observables.iter().filter_map(|observable| observable.bend.as_ref());
+        self.bodies.iter().flat_map(|body| &body.factors).chain(bends.flat_map(|bend| &bend.factors))
+    }
+
+    /// The same, to be changed.
+    pub fn factors_mut(&mut self) -> impl Iterator<Item = &mut Factor> {
+        let bends = self.observables.iter_mut().filter_map(|observable| observable.bend.as_mut());
+        let bodies = self.bodies.iter_mut().flat_map(|body| &mut body.factors);
+        bodies.chain(bends.flat_map(|bend| &mut bend.factors))
+    }
+
     /// The bodies from the ground up to `body`, that one included.
     #[must_use]
     pub fn path(&self, body: BodyId) -> Vec<BodyId> {
@@ -203,7 +222,7 @@ impl Chain {
     }
 
     /// Every transform on the way from the frame that an observable is seen in to the body that carries it, in the order
-    /// they multiply. Bodies that both hang on turn both alike, and are not on the way.
+    /// they multiply; behind them what bends the line of sight. Bodies that both hang on turn both alike, and are not on the way.
     #[must_use]
     pub fn way(&self, observable: ObservableId) -> Vec<Passed<'_>> {
         let observable = self.observable(observable);
@@ -221,7 +240,10 @@ impl Chain {
             let factors = self.body(body).factors.iter();
             factors.map(move |factor| Passed { body, factor: Cow::Borrowed(factor), is_reversed: false })
         });
-        reversed.chain(straight).collect()
+        let body = observable.body;
+        let bent = observable.bend.iter().flat_map(|bend| &bend.factors);
+        let bent = bent.map(move |factor| Passed { body, factor: Cow::Borrowed(factor), is_reversed: false });
+        reversed.chain(straight).chain(bent).collect()
     }
 
     /// The symbols that an observable depends on: of the transforms on its way and of its components, in order.

@@ -23,6 +23,7 @@ pub mod unit;
 pub mod validate;
 
 pub use chain::reading as readings;
+pub use chain::sight;
 pub use chain::{
     Axis, Body, BodyId, Chain, Factor, Observable, ObservableId, ObservableKind, Passed, Role, TransformKind,
 };

@@ -32,6 +32,8 @@ pub enum SymbolKind {
     Input,
     /// A ramp of a joint or input: see [`Ramp`](crate::ramp::Ramp).
     Ramp,
+    /// The angle between an observed direction and up: see [`SightAngle`](crate::chain::sight::SightAngle).
+    SightAngle,
 }
 
 /// What a symbol measures; it fixes the SI unit.

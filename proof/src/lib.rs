@@ -90,6 +90,14 @@ pub enum Refusal {
         "printed and derived differ in what stands beside a ramp; certificates do not put numbers into ramps"
     )]
     Ramp,
+    /// A line of sight that is bent, or an error that follows its angle from up.
+    #[error(
+        "the line of sight of `{name}` is bent or has an angle from up, of which certificates do not speak"
+    )]
+    LineOfSight {
+        /// The observable.
+        name: String,
+    },
     /// A claim of another kind than certificates speak of.
     #[error(
         "certificates speak of forms to an order, of one face, without half angles and roots, and of vectors without quotients \

@@ -11,7 +11,7 @@ use super::leaf;
 use super::passage::{self, Passage};
 use super::{Certificate, Refusal};
 use model_core::algebra::Poly;
-use model_core::chain::{BodyId, ObservableId, ObservableKind};
+use model_core::chain::{BodyId, ObservableId, ObservableKind, Passed};
 use model_core::escape::comments::coq as comment;
 use model_core::expr::Expr;
 use model_core::identify::put_in;
@@ -72,6 +72,12 @@ impl<'c> Section<'c> {
         let declared = certificate.declared;
         let chain = declared.chain();
         let observable = chain.observable(question.observable());
+        let is_of_sight = |passed: &Passed<'_>| {
+            passed.factor.amount.symbols().iter().any(|symbol| chain.sight_angle(*symbol).is_some())
+        };
+        if observable.bend.is_some() || chain.way(question.observable()).iter().any(is_of_sight) {
+            return Err(Refusal::LineOfSight { name: observable.name.clone() });
+        }
         let path = passage::bodies(declared, question.observable());
         let mut section = Self {
             certificate,

@@ -2,7 +2,7 @@
 //! sequence of the rows.
 
 use model_core::unit::Unit;
-use model_core::{Chain, Meaning, Quantity, Symbol, SymbolId, SymbolKind, names, validate};
+use model_core::{Chain, Meaning, ObservableId, Quantity, Symbol, SymbolId, SymbolKind, names, validate};
 use toml::Spanned;
 
 use super::mistakes::{Outcome, every, mistake};
@@ -45,6 +45,7 @@ impl Study {
             }
         }
         every(self.columns.iter().map(|(name, column)| self.give_meaning(&mut chain, name, column)))?;
+        name_sight_angles(&mut chain);
         Ok(chain)
     }
 
@@ -124,6 +125,28 @@ impl Study {
             !named && !taken
         });
         implied
+    }
+}
+
+/// Names the angles between lines of sight and up that effects may use. Where one follows from a single joint it needs no name, and
+/// where the algebra cannot follow it there is none.
+fn name_sight_angles(chain: &mut Chain) {
+    for id in (0_u16..).take(chain.observables.len()).map(ObservableId) {
+        if chain.sight_angle_of(id).is_some() {
+            continue;
+        }
+        let own = format!("zenith_{}", chain.observable(id).name);
+        let names = ["zenith", own.as_str()]
+            .into_iter()
+            .map(str::to_owned)
+            .chain((2..).map(|n| format!("zenith_{n}")));
+        let Some(name) = names.into_iter().find(|name| chain.find_symbol(name).is_none()) else { continue };
+        let before = chain.clone();
+        let is_needed = chain.add_sight_angle(&name, id).is_ok()
+            && chain.sight_angle_of(id).is_some_and(|angle| angle.cosine.recip().is_none());
+        if !is_needed {
+            *chain = before;
+        }
     }
 }
 

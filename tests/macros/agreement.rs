@@ -32,7 +32,7 @@ fn every_method_agrees_with_the_reference() {
             set(SymbolKind::Error, &errors);
             set(SymbolKind::Joint, &joints);
             set(SymbolKind::Input, &inputs);
-            chain.set_ramps(&mut values);
+            chain.set_derived(&mut values);
 
             let answers = (case.answer)(&errors, &[joints, inputs].concat());
             let first_order = Vector3::from_fn(|axis, _| form.components[axis].eval(&values));

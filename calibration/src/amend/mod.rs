@@ -10,18 +10,18 @@ use std::ops::Range;
 
 use model_core::escape::comments;
 use model_core::syntax::declaration::{BodyStatement, Declaration, FactorGroup, Statement};
-use model_core::{BodyId, Chain, Mistakes, Role, Symbol, SymbolKind, validate};
+use model_core::{Chain, Mistakes, ObservableId, Role, Symbol, SymbolKind, validate};
 
-/// A factor to add, as a declaration writes it.
+pub use effects::candidate::Spot;
+
+/// A factor to add, or a bending of a line of sight, as a declaration writes it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Addition {
-    /// The body it goes into.
-    pub body: BodyId,
-    /// Its role there.
-    pub role: Role,
-    /// `Rx(ecc_cos_beta*cos(beta) + ecc_sin_beta*sin(beta))`
-    pub factor: String,
-    /// What was found, when and with what evidence: one `///` line each.
+    /// Where it goes.
+    pub spot: Spot,
+    /// `Rx(ecc_cos_beta*cos(beta) + ecc_sin_beta*sin(beta))`; of a bending the amount alone, `refraction*tan(zenith)`.
+    pub text: String,
+    /// What was found, when and with what evidence: one line of comment each.
     pub documentation: Vec<String>,
 }
 
@@ -55,6 +55,9 @@ pub enum AmendError {
     /// The text is not that of the chain.
     #[error("the declaration has no body `{0}`")]
     NoBody(String),
+    /// The text is not that of the chain.
+    #[error("the declaration has no observable `{0}`")]
+    NoObservable(String),
     /// The amended text would not say what was found.
     #[error(
         "the amended declaration would not say what was found ({0}); this is a mistake in trueaxis: please report it"
@@ -80,22 +83,33 @@ pub fn amend(
         return Err(AmendError::NotAsMeant(format!("`{}` is no name", symbol.name)));
     }
     let mut insertions: Vec<(usize, Role, String)> = Vec::new();
+    let mut bent: Vec<ObservableId> = Vec::new();
     for addition in additions {
-        let name = &chain.body(addition.body).name;
+        let (body, role) = match addition.spot {
+            Spot::Factor(body, role) => (body, role),
+            Spot::Sight(observable) => {
+                let is_bent = bent.contains(&observable);
+                bent.push(observable);
+                let (at, lines) = bending(text, &declaration, chain, observable, is_bent, addition)?;
+                insertions.push((at, Role::MotionError, lines));
+                continue;
+            }
+        };
+        let name = &chain.body(body).name;
         let body = declaration
             .bodies()
             .find(|body| body.name == name.as_str())
             .ok_or_else(|| AmendError::NoBody(name.clone()))?;
-        let (at, indent) = place(text, body, addition.role);
-        let word = if addition.role == Role::MotionError { "motion_error" } else { "position_error" };
+        let (at, indent) = place(text, body, role);
+        let word = if role == Role::MotionError { "motion_error" } else { "position_error" };
         let end = line_end(text, at);
         let mut lines: String = addition
             .documentation
             .iter()
             .map(|line| format!("{end}{indent}/// {}", comments::line(line)))
             .collect();
-        lines.push_str(&format!("{end}{indent}{word}: {};", addition.factor));
-        insertions.push((at, addition.role, lines));
+        lines.push_str(&format!("{end}{indent}{word}: {};", addition.text));
+        insertions.push((at, role, lines));
     }
     for input in inputs {
         let (at, indent) = input_place(text, &declaration);
@@ -117,7 +131,7 @@ pub fn amend(
         from = at;
     }
     amended.push_str(&text[from..]);
-    verify::says_what_was_meant(text, &amended, &inserted, additions, inputs)?;
+    verify::says_what_was_meant((text, &declaration, chain), &amended, &inserted, additions, inputs)?;
     Ok(amended)
 }
 
@@ -134,6 +148,33 @@ pub fn with_quantities_of(mut chain: Chain, text: &str) -> Result<Chain, Mistake
         }
     }
     Ok(chain)
+}
+
+/// Where a bending goes, behind the last word of an observable, and what is written there. A line of sight that is bent
+/// already is bent by more.
+fn bending(
+    text: &str,
+    declaration: &Declaration,
+    chain: &Chain,
+    observable: ObservableId,
+    is_bent: bool,
+    addition: &Addition,
+) -> Result<(usize, String), AmendError> {
+    let name = &chain.observable(observable).name;
+    let observe = declaration
+        .observables()
+        .find(|observe| observe.name == name.as_str())
+        .ok_or_else(|| AmendError::NoObservable(name.clone()))?;
+    let at = observe.last.byte_range().end;
+    let (end, indent) = (line_end(text, at), indentation(text, observe.name.span().byte_range().start));
+    let is_bent = is_bent || observe.bent.is_some();
+    let mut lines = if is_bent { String::new() } else { ",".to_owned() };
+    for line in &addition.documentation {
+        lines.push_str(&format!("{end}{indent}    // {}", comments::line(line)));
+    }
+    let words = if is_bent { "+" } else { "bent up by" };
+    lines.push_str(&format!("{end}{indent}    {words} {}", addition.text));
+    Ok((at, lines))
 }
 
 /// How the line around a byte ends.
@@ -166,7 +207,8 @@ fn place(text: &str, body: &BodyStatement, role: Role) -> (usize, String) {
 fn input_place(text: &str, declaration: &Declaration) -> (usize, String) {
     let inputs = declaration.statements.iter().filter_map(|statement| match statement {
         Statement::Input(input) => {
-            let last = input.of.as_ref().or(input.meaning.as_ref()).unwrap_or(&input.name);
+            let of = input.between.as_ref().map(|between| &between.up).or(input.of.as_ref());
+            let last = of.or(input.meaning.as_ref()).unwrap_or(&input.name);
             Some((after_semicolon(text, last.span().byte_range().end), input.name.span().byte_range().start))
         }
         _ => None,

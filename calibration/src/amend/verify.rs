@@ -3,33 +3,54 @@
 
 use std::ops::Range;
 
-use model_core::{Chain, Role};
+use model_core::syntax::declaration::Declaration;
+use model_core::{Chain, ObservableId, Role};
 use proc_macro2::{TokenStream, TokenTree};
 
-use super::{Addition, AmendError, NewInput};
+use super::{Addition, AmendError, NewInput, Spot};
 
 /// Holds an amended text to its original and to the additions; `inserted` are the bytes that were added.
 ///
 /// # Errors
 /// In which way it says something else.
 pub(super) fn says_what_was_meant(
-    original: &str,
+    (original, before, chain): (&str, &Declaration, &Chain),
     amended: &str,
     inserted: &[Range<usize>],
     additions: &[Addition],
     inputs: &[NewInput],
 ) -> Result<(), AmendError> {
+    let all = words(amended)?;
     let (added, kept): (Vec<Word>, Vec<Word>) =
-        words(amended)?.into_iter().partition(|word| inserted.iter().any(|range| range.contains(&word.at)));
+        all.into_iter().partition(|word| inserted.iter().any(|range| range.contains(&word.at)));
     if texts(&kept) != texts(&words(original)?) {
         return Err(AmendError::NotAsMeant("the words of the declaration itself would change".to_owned()));
     }
     // Lines at one place are sorted by their role: here the order says nothing.
-    let mut said = statements(&texts(&without_documentation(added)));
+    let added = without_documentation(added);
+    let mut said = Vec::new();
+    for range in inserted {
+        let own: Vec<String> =
+            added.iter().filter(|word| range.contains(&word.at)).map(|word| word.text.clone()).collect();
+        said.extend(statements(&own));
+    }
     let mut meant = Vec::new();
+    let mut bent: Vec<ObservableId> = Vec::new();
     for addition in additions {
-        let role = if addition.role == Role::MotionError { "motion_error" } else { "position_error" };
-        meant.push(texts(&words(&format!("{role}: {};", addition.factor))?));
+        let text = &addition.text;
+        let written = match addition.spot {
+            Spot::Factor(_, Role::MotionError) => format!("motion_error: {text};"),
+            Spot::Factor(..) => format!("position_error: {text};"),
+            Spot::Sight(observable) => {
+                let name = &chain.observable(observable).name;
+                let was_bent =
+                    before.observables().any(|own| own.name == name.as_str() && own.bent.is_some());
+                let is_bent = was_bent || bent.contains(&observable);
+                bent.push(observable);
+                if is_bent { format!("+ {text}") } else { format!(", bent up by {text}") }
+            }
+        };
+        meant.push(texts(&words(&written)?));
     }
     for input in inputs {
         meant.push(texts(&words(&input.statement())?));

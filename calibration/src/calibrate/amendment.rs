@@ -1,6 +1,6 @@
 //! The lines of the amended declaration: what was found and when; the statistics stay in the report.
 
-use model_core::{Chain, Quantity, Symbol, SymbolId, SymbolKind};
+use model_core::{Chain, ObservableId, Quantity, Symbol, SymbolId, SymbolKind};
 
 use crate::amend::{Addition, NewInput};
 use crate::diagnose::Diagnosis;
@@ -24,10 +24,9 @@ pub(crate) fn additions(
             others => format!(", or one of {others} other causes that fit as well"),
         };
         let documentation = format!("Found {} by calibration: {}{others}.", whole.request.when, effect.name);
-        effect.texts(chain, errors).into_iter().map(move |(body, role, factor)| Addition {
-            body,
-            role,
-            factor,
+        effect.texts(chain, errors).into_iter().map(move |(spot, text)| Addition {
+            spot,
+            text,
             documentation: vec![documentation.clone()],
         })
     })
@@ -48,15 +47,28 @@ pub(crate) fn new_inputs(whole: &Context<'_>, chain: &Chain, found: &[Found]) ->
         .collect();
     used.sort_unstable();
     used.dedup();
-    used.into_iter()
-        .map(|symbol| chain.symbol(symbol))
-        .filter(|symbol| declared.as_ref().is_ok_and(|chain| chain.find_symbol(&symbol.name).is_none()))
-        .map(|symbol| NewInput {
-            name: symbol.name.clone(),
-            meaning: meaning(chain, symbol),
-            documentation: "Measured beside the joints, in the unit of the data.".to_owned(),
-        })
-        .collect()
+    let is_new = |name: &str| declared.as_ref().is_ok_and(|declared| declared.find_symbol(name).is_none());
+    let measured = used.into_iter().map(|symbol| chain.symbol(symbol)).map(|symbol| NewInput {
+        name: symbol.name.clone(),
+        meaning: meaning(chain, symbol),
+        documentation: "Measured beside the joints, in the unit of the data.".to_owned(),
+    });
+    let mut bent: Vec<ObservableId> = found
+        .iter()
+        .filter_map(|found| whole.catalogue[found.effect].bends.as_ref())
+        .map(|bends| bends.observable)
+        .collect();
+    bent.sort_unstable();
+    bent.dedup();
+    let angles = bent.into_iter().filter_map(|observable| chain.sight_angle_of(observable)).map(|angle| {
+        let sight = &chain.observable(angle.observable).name;
+        NewInput {
+            name: chain.symbol(angle.symbol).name.clone(),
+            meaning: Some(format!("angle = between({sight}, up)")),
+            documentation: "The zenith distance: the angle between what is observed and up.".to_owned(),
+        }
+    });
+    measured.chain(angles).filter(|input| is_new(&input.name)).collect()
 }
 
 /// What an input is, as a declaration writes it.

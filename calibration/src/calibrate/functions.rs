@@ -122,6 +122,7 @@ fn with_function(plan: &Plan, taken: &Taken) -> Option<(Plan, String)> {
         Function::new(amount, format!("{stem}{number}"))
     });
     let effect = Effect {
+        bends: None,
         family: if matches!(kind, ShapeKind::Harmonic(_)) { HIGH_HARMONIC } else { SHAPE },
         name: name.clone(),
         place: taken.place,

@@ -109,7 +109,7 @@ fn moved(
     mean: f64,
 ) -> Result<Vec<String>, FitError> {
     let is_in_proportion = |id: SymbolId| {
-        let mut factors = chain.bodies.iter().flat_map(|body| &body.factors);
+        let mut factors = chain.factors();
         factors.any(|factor| {
             let own = factor.amount.derivative(id);
             let rest = own.derivative(input);

@@ -33,6 +33,9 @@ pub struct EffectFound {
     pub dof: String,
     /// Before the joint moves the body, or after.
     pub side: Side,
+    /// The direction whose line of sight it bends up, where it moves no body.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bends: Option<String>,
     /// The joint or input behind it.
     pub driver: String,
     /// How it follows that.
@@ -208,6 +211,7 @@ pub(super) fn effects(
                 body: chain.body(effect.place.body).name.clone(),
                 dof: effect.freedoms(),
                 side: if effect.place.role == Role::MotionError { Side::After } else { Side::Before },
+                bends: effect.bends.as_ref().map(|bends| chain.observable(bends.observable).name.clone()),
                 driver: effect.driver.clone(),
                 form: effect.form.clone(),
                 names: names(whole, effect, found.effect, &others.alike),

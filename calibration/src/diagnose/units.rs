@@ -8,8 +8,8 @@ use observe::SiUnit;
 
 /// The unit of an error or constant of a chain that has it; that of its quantity where it stands in no factor alone.
 pub(crate) fn unit_of(setting: &Setting<'_>, chain: &Chain, id: SymbolId) -> SiUnit {
-    let factors = chain.bodies.iter().flat_map(|body| &body.factors);
-    factors
+    chain
+        .factors()
         .filter(|factor| factor.amount.symbols().contains(&id))
         .find_map(|factor| {
             let parts = factor.amount.collect_by(|symbol| symbol == id);

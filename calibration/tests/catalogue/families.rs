@@ -119,6 +119,32 @@ fn compliance_follows_the_lever_of_each_weight() {
     }
 }
 
+/// A torso carries both arms, whichever hand is observed: the lever of the other hand, by plain trigonometry.
+#[test]
+fn compliance_counts_the_other_arm() {
+    let text = "chain TwoArms {
+        body torso on ground { motion: Ry(lean); motion_error: Ry(dlean); }
+        body left on torso { position: Ty(0.2), Tz(0.5); motion: Ry(left_shoulder); }
+        body left_hand on left { position: Tx(0.6); position_error: Tx(dx); }
+        body right on torso { position: Ty(-0.2), Tz(0.5); motion: Ry(right_shoulder); }
+        body right_hand on right { position: Tx(0.7); }
+        observe tip: point(0, 0, 0) of left_hand;
+    }";
+    let asked = Asked::of(text, "tip", "point", "[columns]\nright_shoulder = { column = \"r\" }\n");
+    let (catalogue, chain) = (asked.catalogue(), &asked.plan.chain);
+    let of = |name: &str| catalogue.iter().find(|effect| effect.name == name);
+    let effect = of("compliance of lean under the weight of right_hand").unwrap();
+    let mut values = chain.nominal_values();
+    let (lean, shoulder) = (0.4_f64, -1.3_f64);
+    values[chain.find_symbol("lean").unwrap().index()] = lean;
+    values[chain.find_symbol("right_shoulder").unwrap().index()] = shoulder;
+    let level = 0.5 * lean.sin() + 0.7 * (lean + shoulder).cos();
+    approx::assert_relative_eq!(effect.functions[0].amount.eval(&values), level, epsilon = 1e-12);
+    // What the other shoulder carries does not wind up this one, and the other shoulder moves nothing that is observed.
+    assert!(of("compliance of left_shoulder under the weight of right_hand").is_none());
+    assert!(of("compliance of right_shoulder under the weight of right_hand").is_none());
+}
+
 #[test]
 fn what_moves_nothing_is_no_candidate() {
     let chain = example("alt-azimuth/alt-azimuth.chain");
@@ -186,12 +212,28 @@ fn a_declared_meaning_counts_and_a_name_does_not() {
     }
 }
 
-/// A declination is no altitude: its axis is level at two hour angles alone, and the tangent of it says nothing of the air.
+/// A declination is no altitude: its axis is level at two hour angles alone, and the tangent of it says nothing of the air. The
+/// zenith distance follows from both joints.
 #[test]
-fn refraction_needs_an_axis_that_stays_level() {
+fn refraction_follows_the_zenith_distance() {
+    let of = |text: &str, kind: &str| {
+        let all = names(&Asked::of(text, "sight", kind, ""));
+        all.into_iter().filter(|name| name.starts_with("refraction")).collect::<Vec<_>>()
+    };
     let equatorial = example("equatorial/equatorial.chain");
-    let of = |text: &str, observable: &str| names(&Asked::of(text, observable, "direction", ""));
-    assert!(of(&equatorial, "sight").iter().all(|name| !name.starts_with("refraction")));
+    assert_eq!(
+        of(&equatorial, "direction"),
+        [
+            "refraction, tangent of the zenith distance",
+            "refraction, cube of the tangent of the zenith distance"
+        ]
+    );
     let mount = example("alt-azimuth/alt-azimuth.chain");
-    assert!(of(&mount, "sight").contains(&"refraction, cot of elevation".to_owned()));
+    assert_eq!(
+        of(&mount, "direction"),
+        ["refraction, cot of elevation", "refraction, cube of cot of elevation"]
+    );
+    // Where up is not known with its length, the zenith distance is not known.
+    let unknown = equatorial.replace("gravity: (0, -cos(latitude)", "gravity: (0, -2*cos(latitude)");
+    assert_eq!(of(&unknown, "direction"), Vec::<String>::new());
 }

@@ -20,6 +20,9 @@ fn frame(a: SymbolId, e: SymbolId) -> [[Poly; 3]; 3] {
 /// A published formula, read with the chain's own symbols; `None` for a formula of another mount.
 fn formula(text: &str, chain: &Chain, mount: &Mount) -> Option<Poly> {
     let resolve = |name: &str| {
+        if name == "z" {
+            return chain.sight_angles.first().map(|angle| angle.symbol);
+        }
         let joint = mount.letters.iter().position(|letter| *letter == name).map(|at| mount.joints[at]);
         chain.find_symbol(joint.unwrap_or(if name == "R" { "range" } else { name }))
     };
@@ -142,6 +145,7 @@ fn names_belong_to_the_effects_that_their_fields_mean() {
             ("ME", "constant rotation of fork axis about x"),
             ("MA", "constant rotation of fork axis about y"),
             ("TF", "droop of tube under gravity"),
+            ("TX", "refraction, tangent of the zenith distance"),
             ("FO", "gravity flexure of fork about x"),
             ("DAF", "gravity flexure of tube about z"),
             ("HCES", "encoder eccentricity of ha"),
@@ -202,8 +206,8 @@ fn a_study_chooses_by_any_name() {
         [
             "encoder scale of azimuth",
             "encoder scale of elevation",
-            "refraction, tan of elevation",
-            "refraction, cot of elevation"
+            "refraction, cot of elevation",
+            "refraction, cube of cot of elevation"
         ]
     );
     let with = Asked::of(SCANNER, "target", "point", "[search]\neffects = [\"x10\"]\n");

@@ -10,5 +10,7 @@ mod left_out;
 mod mistaken;
 mod remembering;
 mod rounds;
+mod sight;
 mod simulated;
+mod slides;
 mod taken_up;

@@ -1,6 +1,6 @@
 //! Texts that are amended: however they are written, they say afterwards what they said before, and what was found.
 
-use calibration::amend::{Addition, AmendError, NewInput, amend};
+use calibration::amend::{Addition, AmendError, NewInput, Spot, amend};
 use model_core::{BodyId, Chain, Role};
 use proptest::prelude::*;
 
@@ -16,9 +16,8 @@ const PLAIN: &str = "chain Shaft {
 
 fn addition(factor: &str, documentation: &str) -> Addition {
     Addition {
-        body: BodyId(0),
-        role: Role::MotionError,
-        factor: factor.to_owned(),
+        spot: Spot::Factor(BodyId(0), Role::MotionError),
+        text: factor.to_owned(),
         documentation: vec![documentation.to_owned()],
     }
 }

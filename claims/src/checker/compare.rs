@@ -97,12 +97,15 @@ pub(super) fn kept(chain: &Chain, columns: &Columns, claim: &ClosedForm) -> Resu
     Ok(result)
 }
 
-/// A joint that the second face moves and that a ramp in the form depends on, if there is one.
-pub(super) fn ramp_of(chain: &Chain, columns: &Columns, faces: &Faces) -> Option<SymbolId> {
+/// A joint that the second face moves and that a ramp or the angle of a line of sight in the form depends on, if there is one.
+pub(super) fn derived_of(chain: &Chain, columns: &Columns, faces: &Faces) -> Option<SymbolId> {
     let used: Vec<SymbolId> =
         columns.iter().flat_map(|parts| parts.values()).flat_map(Poly::symbols).collect();
     let ramps = chain.ramps.iter().filter(|ramp| used.contains(&ramp.symbol));
-    ramps.flat_map(|ramp| ramp.depends_on()).find(|id| faces.second.iter().any(|(joint, _)| joint == id))
+    let angles = chain.sight_angles.iter().filter(|angle| used.contains(&angle.symbol));
+    let mut joints =
+        ramps.flat_map(|ramp| ramp.depends_on()).chain(angles.flat_map(|angle| angle.depends_on()));
+    joints.find(|id| faces.second.iter().any(|(joint, _)| joint == id))
 }
 
 /// The errors of two faces, combined. A form is odd in each of the roots that it has a sign for, so where such a root turns

@@ -282,6 +282,7 @@ fn frame_of(
             body,
             frame,
             shown: COMPONENTS.to_vec(),
+            bend: None,
         });
     }
     (first..first + 4)

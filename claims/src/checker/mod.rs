@@ -90,9 +90,9 @@ pub enum CheckError {
     /// The sign of a root in the second face cannot be told.
     #[error("whether {0} is positive or negative in the second face cannot be told from its first")]
     SignInFace(String),
-    /// In the second face a ramp would be another one.
-    #[error("a ramp of {0} has no form in the second face")]
-    Ramp(String),
+    /// In the second face a ramp or the angle of a line of sight would be another one.
+    #[error("a ramp or the angle of a line of sight that follows {0} has no form in the second face")]
+    Derived(String),
     /// What data can tell apart has no answer.
     #[error(transparent)]
     Identify(#[from] IdentifyError),
@@ -265,8 +265,8 @@ fn derived(chain: &Chain, observable: ObservableId, order: Order) -> Result<Impl
 fn claimed(chain: &Chain, claim: &ClosedForm, implied: &Implied) -> Result<Implied, CheckError> {
     let mut implied = Implied { columns: compare::kept(chain, &implied.columns, claim)?, ..implied.clone() };
     if let Some(faces) = &claim.faces {
-        if let Some(joint) = compare::ramp_of(chain, &implied.columns, faces) {
-            return Err(CheckError::Ramp(chain.symbol(joint).name.clone()));
+        if let Some(joint) = compare::derived_of(chain, &implied.columns, faces) {
+            return Err(CheckError::Derived(chain.symbol(joint).name.clone()));
         }
         implied = compare::over_faces(chain, &implied, faces)?;
     }

@@ -82,7 +82,7 @@ impl Checker<'_> {
 /// How many combinations of some errors are determined, all others being zero.
 fn rank(chain: &Chain, observables: &[ObservableId], errors: &[SymbolId]) -> Result<usize, CheckError> {
     let mut restricted = chain.clone();
-    for factor in restricted.bodies.iter_mut().flat_map(|body| &mut body.factors) {
+    for factor in restricted.factors_mut() {
         for symbol in factor.amount.symbols() {
             if chain.symbol(symbol).kind == SymbolKind::Error && !errors.contains(&symbol) {
                 factor.amount = factor.amount.substitute(symbol, &Poly::zero())?;

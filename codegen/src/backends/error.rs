@@ -42,6 +42,12 @@ pub enum GenerateError {
         /// The observable.
         name: String,
     },
+    /// Single precision is asked for of a line of sight that is bent, or whose angle from up stands in an error.
+    #[error("single precision has no angle between `{name}` and up here: ask for double precision")]
+    SingleSight {
+        /// The observable.
+        name: String,
+    },
     /// Derivatives are asked for of an angle that has none where there are no errors.
     #[error(
         "the angle off the axis of `{name}` has no derivative where errors are zero: leave out {}",

@@ -19,7 +19,7 @@ mod unit;
 use std::collections::BTreeSet;
 
 use model_core::readings::Measures;
-use model_core::{Chain, Observable, SymbolId, SymbolKind};
+use model_core::{Chain, Observable, Passed, SymbolId, SymbolKind};
 
 pub use error::GenerateError;
 pub use names::snake_case;
@@ -202,6 +202,12 @@ fn check(unit: &Unit<'_>, language: Language, file_name: &str) -> Result<(), Gen
         let name = || observable.name.clone();
         if unit.precision == Precision::Single && !observable.has_components_only() {
             return Err(GenerateError::SingleReading { name: name() });
+        }
+        let is_of_sight = |passed: &Passed<'_>| {
+            passed.factor.amount.symbols().iter().any(|symbol| unit.chain.sight_angle(*symbol).is_some())
+        };
+        if unit.precision == Precision::Single && unit.chain.way(id).iter().any(is_of_sight) {
+            return Err(GenerateError::SingleSight { name: name() });
         }
         unit.forms.iter().try_for_each(|&form| derivable(observable, form))?;
     }

@@ -168,7 +168,9 @@ impl Notation for Python<'_> {
     fn symbol(&self, id: SymbolId) -> String {
         let name = self.names.symbol(id);
         match self.chain.symbol(id).kind {
-            SymbolKind::Ramp => unreachable!("a ramp is computed from its joint or input"),
+            SymbolKind::Ramp | SymbolKind::SightAngle => {
+                unreachable!("a ramp or angle of a line of sight is computed from what it follows from")
+            }
             SymbolKind::Error => format!("errors.{name}"),
             SymbolKind::Joint => format!("joints.{name}"),
             SymbolKind::Input => format!("inputs.{name}"),

@@ -99,7 +99,7 @@ impl Group {
             SymbolKind::Input => ("inputs", "What is measured beside the joints."),
             SymbolKind::Error => ("errors", "What differs from the design: nothing where all are zero."),
             SymbolKind::Constant => ("constants", "The sizes of the geometry."),
-            SymbolKind::Pi | SymbolKind::Ramp => return None,
+            SymbolKind::Pi | SymbolKind::Ramp | SymbolKind::SightAngle => return None,
         };
         if symbols.is_empty() { None } else { Some(Self { kind, argument, about, symbols }) }
     }

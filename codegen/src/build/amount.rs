@@ -5,6 +5,7 @@
 
 use model_core::SymbolId;
 use model_core::algebra::{Poly, Rational, Term, Wave};
+use model_core::chain::sight::SightAngle;
 use model_core::ramp::Ramp;
 
 use super::vectors::Turn;
@@ -138,7 +139,12 @@ fn power(b: &mut Builder, base: Value, exponent: u32) -> Value {
 
 /// Sine and cosine of a whole multiple of a symbol.
 fn harmonic(b: &mut Builder, symbol: SymbolId, multiple: u32) -> Turn {
-    let angle = b.symbol(symbol);
+    if multiple <= 1
+        && let Some(angle) = b.sight_angle(symbol)
+    {
+        return sight_turn(b, &angle);
+    }
+    let angle = self::symbol(b, symbol);
     if multiple <= 1 || multiple > HIGHEST_DERIVED_HARMONIC {
         let factor = b.constant(f64::from(multiple));
         let angle = b.mul(factor, angle);
@@ -161,12 +167,26 @@ fn harmonic(b: &mut Builder, symbol: SymbolId, multiple: u32) -> Turn {
     }
 }
 
-/// A symbol; one that stands for a ramp is computed from what the ramp is a function of.
+/// A symbol; one that stands for a ramp or for the angle of a line of sight is computed from what that is a function of.
 fn symbol(b: &mut Builder, symbol: SymbolId) -> Value {
-    match b.ramp(symbol) {
-        Some(ramp) => self::ramp(b, &ramp),
+    if let Some(ramp) = b.ramp(symbol) {
+        return self::ramp(b, &ramp);
+    }
+    match b.sight_angle(symbol) {
+        Some(angle) => {
+            let turn = sight_turn(b, &angle);
+            b.arc_tangent(turn.sin, turn.cos)
+        }
         None => b.symbol(symbol),
     }
+}
+
+/// Sine and cosine of the angle between a line of sight and up.
+pub(super) fn sight_turn(b: &mut Builder, angle: &SightAngle) -> Turn {
+    let cos = lower(b, &angle.cosine);
+    let across = angle.across.each_ref().map(|part| lower(b, part));
+    let square = b.dot(across.map(|part| (part, part)));
+    Turn { sin: b.root(square), cos }
 }
 
 /// The value of a ramp.

@@ -14,6 +14,7 @@ use super::amount::{lower, small_turn, turn};
 use super::exact::{component_errors, components};
 use super::path::{Path, Split, Step, is_error};
 use super::ramp::slope;
+use super::sight::sight_slope;
 use super::vectors::{Matrix, NOTHING, Turn, Vector, add, affine, along, axis_cross, cross};
 use crate::builder::Builder;
 
@@ -95,10 +96,11 @@ fn column(
     at: At,
     symbol: SymbolId,
 ) -> Vector {
-    let ramps = b.ramps_of(symbol);
+    let (ramps, angles) = (b.ramps_of(symbol), b.sight_angles_of(symbol));
     let mut used: Vec<usize> = ramps
         .iter()
         .map(|ramp| ramp.symbol)
+        .chain(angles.iter().map(|angle| angle.symbol))
         .chain([symbol])
         .filter_map(|symbol| uses.get(&symbol))
         .flatten()
@@ -120,6 +122,12 @@ fn column(
             let of_ramp = partial(b, ramp.symbol);
             let slope = slope(b, ramp, symbol);
             let part = b.mul(of_ramp, slope);
+            sum = b.add(sum, part);
+        }
+        for angle in &angles {
+            let of_angle = partial(b, angle.symbol);
+            let slope = sight_slope(b, angle, symbol);
+            let part = b.mul(of_angle, slope);
             sum = b.add(sum, part);
         }
         sum

@@ -12,6 +12,7 @@ mod product;
 mod ramp;
 mod readings;
 mod region;
+mod sight;
 mod uncertain;
 mod vectors;
 

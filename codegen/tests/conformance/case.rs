@@ -3,7 +3,7 @@
 use codegen::{File, Form, Interpreter, Language, NodeId, Op, Program, Stage, Unit, build, generate};
 use model_core::{Chain, ObservableId, SymbolId, SymbolKind};
 
-use crate::support::{CHAINS, READINGS, errors, pose, random, read};
+use crate::support::{CHAINS, READINGS, SIGHT, errors, pose, random, read};
 
 pub const FORMS: [(Form, &str); 5] = [
     (Form::ExactValue, "exact_value"),
@@ -39,7 +39,7 @@ pub struct Case {
 
 impl Case {
     pub fn all() -> Vec<Self> {
-        CHAINS.into_iter().chain([READINGS]).map(|(name, text)| Self::new(name, text)).collect()
+        CHAINS.into_iter().chain([READINGS, SIGHT]).map(|(name, text)| Self::new(name, text)).collect()
     }
 
     /// How many numbers all observables show together.

@@ -134,8 +134,9 @@ int main(void)
 
 #[test]
 fn single_precision() {
-    // Angles and ranges have no code in single precision: `generate` refuses them with words.
-    let cases: Vec<Case> = Case::all().into_iter().filter(|case| case.name != "readings").collect();
+    // Angles, ranges and lines of sight have no code in single precision: `generate` refuses them with words.
+    let cases: Vec<Case> =
+        Case::all().into_iter().filter(|case| !["readings", "sight"].contains(&case.name)).collect();
     let printed = rust(&cases);
     assert_eq!(printed, c(&cases), "Rust and C give the same bits");
     let mut numbers = printed.lines().map(|line| f64::from(f32::from_bits(line.parse().unwrap())));

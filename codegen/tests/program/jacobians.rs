@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use codegen::{Form, Interpreter, NodeId, build};
 use model_core::{Chain, ObservableId, SymbolId, SymbolKind, exact, forms};
 
-use crate::support::{CHAINS, errors, pose, random, read};
+use crate::support::{CHAINS, SIGHT, errors, pose, random, read};
 
 /// Derivative by a five-point difference: off by h⁴/30 times the fifth derivative, and by rounding over h.
 fn difference(chain: &Chain, id: ObservableId, values: &[f64], symbol: SymbolId) -> [f64; 3] {
@@ -22,7 +22,7 @@ fn difference(chain: &Chain, id: ObservableId, values: &[f64], symbol: SymbolId)
 /// With respect to errors, constants, joints and inputs alike, at errors that are not small.
 #[test]
 fn exact_jacobians_agree_with_differences() {
-    for (name, text) in CHAINS {
+    for (name, text) in CHAINS.into_iter().chain([SIGHT]) {
         let chain = read(name, text);
         let wrt: Vec<SymbolId> =
             [SymbolKind::Error, SymbolKind::Constant, SymbolKind::Joint, SymbolKind::Input]

@@ -3,7 +3,7 @@
 use codegen::{Form, Interpreter, build};
 use model_core::{Chain, ObservableId, exact, forms};
 
-use crate::support::{CHAINS, errors, pose, random, read};
+use crate::support::{CHAINS, SIGHT, errors, pose, random, read};
 
 const POSES: usize = 50;
 
@@ -19,7 +19,7 @@ fn check(
     reference: impl Fn(&Chain, ObservableId, &[f64]) -> [f64; 3],
     scale: impl Fn(f64) -> f64,
 ) {
-    for (name, text) in CHAINS {
+    for (name, text) in CHAINS.into_iter().chain([SIGHT]) {
         let chain = read(name, text);
         let observables = observables(&chain);
         let program = build(&chain, &observables, form, &errors(&chain));

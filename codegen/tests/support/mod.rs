@@ -25,6 +25,10 @@ pub const CHAINS: [(&str, &str); 13] = [
 #[allow(dead_code, reason = "not every suite needs it")]
 pub const READINGS: (&str, &str) = ("readings", include_str!("../chains/readings.chain"));
 
+/// Lines of sight, in double precision alone.
+#[allow(dead_code, reason = "not every suite needs it")]
+pub const SIGHT: (&str, &str) = ("sight", include_str!("../chains/sight.chain"));
+
 pub fn read(name: &str, text: &str) -> Chain {
     Chain::from_text(text).unwrap_or_else(|mistakes| panic!("{}", mistakes.render(name, text)))
 }
@@ -41,10 +45,10 @@ pub fn pose(chain: &Chain, random: &mut ChaCha8Rng, size: f64) -> Vec<f64> {
             SymbolKind::Error => size * random.random_range(-1.0..1.0),
             SymbolKind::Joint => random.random_range(0.2..1.3) + 1.5 * f64::from(random.random_range(-2..2)),
             SymbolKind::Input => random.random_range(-3.0..3.0),
-            SymbolKind::Ramp => f64::NAN,
+            SymbolKind::Ramp | SymbolKind::SightAngle => f64::NAN,
         })
         .collect();
-    chain.set_ramps(&mut values);
+    chain.set_derived(&mut values);
     values
 }
 

@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 
 use model_core::algebra::Poly;
 use model_core::{
-    Axis, BodyId, Chain, Factor, Quantity, Role, Symbol, SymbolId, SymbolKind, TransformKind, print, validate,
+    Axis, BodyId, Chain, Factor, ObservableId, Quantity, Role, Symbol, SymbolId, SymbolKind, TransformKind,
+    print, validate,
 };
 
 use super::Dependence;
@@ -165,6 +166,27 @@ pub struct Effect {
     pub driver: String,
     /// How it follows that.
     pub form: Dependence,
+    /// The line of sight that it bends up, where it is none of the bodies that move: then the declaration says so, and what
+    /// stands at its places is what that comes to, to first order.
+    pub bends: Option<Bends>,
+}
+
+/// A bending of a line of sight.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bends {
+    /// The direction.
+    pub observable: ObservableId,
+    /// By how much each error bends it up, in the order of the functions.
+    pub amounts: Vec<Poly>,
+}
+
+/// Where a line of a declaration goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Spot {
+    /// A factor of a role in a body.
+    Factor(BodyId, Role),
+    /// The bending of a line of sight.
+    Sight(ObservableId),
 }
 
 impl Effect {
@@ -201,6 +223,17 @@ impl Effect {
             let name = free_name(&amended, &function.stem);
             errors.push(add_error(&mut amended, name, self.place.freedom.quantity())?);
         }
+        if let Some(bends) = &self.bends {
+            let observable = usize::from(bends.observable.0);
+            let bent = amended.observables.get(observable)?.bend.as_ref();
+            let mut amount = bent.map_or_else(Poly::zero, |bend| bend.amount.clone());
+            for (&error, own) in errors.iter().zip(&bends.amounts) {
+                amount = &amount + &(&Poly::symbol(error) * own);
+            }
+            let bend = amended.sight_angle_of(bends.observable)?.bending(&amount, &self.name).ok()?;
+            amended.observables[observable].bend = Some(bend);
+            return Some((amended, errors));
+        }
         for (place, amount) in self.amounts(&errors) {
             insert(&mut amended, place, amount, self.name.clone());
         }
@@ -222,10 +255,16 @@ impl Effect {
     }
 
     /// As a declaration would write it in a chain that has its errors, for each body and role that it stands in:
-    /// `Rx(a*cos(beta) + b*sin(beta))`.
+    /// `Rx(a*cos(beta) + b*sin(beta))`; of a bending the amount alone, `a*tan(zenith)`.
     #[must_use]
-    pub fn texts(&self, chain: &Chain, errors: &[SymbolId]) -> Vec<(BodyId, Role, String)> {
-        let mut texts: Vec<(BodyId, Role, String)> = Vec::new();
+    pub fn texts(&self, chain: &Chain, errors: &[SymbolId]) -> Vec<(Spot, String)> {
+        if let Some(bends) = &self.bends {
+            let parts = errors.iter().zip(&bends.amounts);
+            let parts: Vec<String> =
+                parts.map(|(&error, amount)| print::text(&(&Poly::symbol(error) * amount), chain)).collect();
+            return vec![(Spot::Sight(bends.observable), parts.join(" + ").replace("+ -", "- "))];
+        }
+        let mut texts: Vec<(Spot, String)> = Vec::new();
         for place in self.places() {
             let parts: Vec<String> = errors
                 .iter()
@@ -236,9 +275,10 @@ impl Effect {
                 .map(|(error, amount)| print::text(&(&Poly::symbol(error) * amount), chain))
                 .collect();
             let factor = format!("{}({})", place.freedom.word(), parts.join(" + ").replace("+ -", "- "));
-            match texts.iter_mut().find(|(body, role, _)| (*body, *role) == (place.body, place.role)) {
-                Some((_, _, text)) => *text = format!("{text}, {factor}"),
-                None => texts.push((place.body, place.role, factor)),
+            let spot = Spot::Factor(place.body, place.role);
+            match texts.iter_mut().find(|(known, _)| *known == spot) {
+                Some((_, text)) => *text = format!("{text}, {factor}"),
+                None => texts.push((spot, factor)),
             }
         }
         texts
@@ -247,7 +287,10 @@ impl Effect {
     /// All of [`Self::texts`] in one line.
     #[must_use]
     pub fn text(&self, chain: &Chain, errors: &[SymbolId]) -> String {
-        let texts = self.texts(chain, errors).into_iter().map(|(_, _, text)| text);
+        let texts = self.texts(chain, errors).into_iter().map(|(spot, text)| match spot {
+            Spot::Factor(..) => text,
+            Spot::Sight(_) => format!("bent up by {text}"),
+        });
         texts.collect::<Vec<_>>().join(", ")
     }
 }

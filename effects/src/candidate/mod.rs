@@ -11,7 +11,7 @@ pub(crate) mod seen;
 mod setting;
 
 pub use dependence::Dependence;
-pub use effect::{Effect, Freedom, Function, Place};
+pub use effect::{Bends, Effect, Freedom, Function, Place, Spot};
 pub use effect::{add_error, insert};
 pub use family::Family;
 pub use functions::harmonic;

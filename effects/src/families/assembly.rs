@@ -34,6 +34,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                 let tag = if role == Role::MotionError { "" } else { "axis_" };
                 let stem = format!("offset_{tag}{name}_{}", freedom.word().to_lowercase());
                 effects.push(Effect {
+                    bends: None,
                     family: FAMILY.name,
                     name: assembly_name(name, role, freedom),
                     place: Place { body, role, freedom },

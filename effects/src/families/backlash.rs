@@ -20,6 +20,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
         let input = Kind::Direction(joint.symbol).input(setting)?;
         let name = setting.name(joint.symbol);
         Some(Effect {
+            bends: None,
             family: FAMILY.name,
             name: format!("backlash of {name}"),
             place: joint.place(),

@@ -1,14 +1,15 @@
 //! Compliance: a joint gives way under the weight of what hangs on it, by a lever that changes with the joints behind it.
 
 use model_core::algebra::Poly;
-use model_core::{Chain, SymbolKind};
+use model_core::{BodyId, Chain, SymbolKind};
 
 use crate::candidate::{Effect, Family, Function, JointAxis, Setting, seen};
 
 pub(super) const FAMILY: Family = Family {
     name: "compliance",
     what: "A joint winds up in proportion to the torque that the weight of one body behind it exerts about its axis. The lever \
-           follows from the chain: where the body stands, seen from the joint, across the plumb line.",
+           follows from the chain: where the body stands, seen from the joint, across the plumb line. A second arm that the joint \
+           carries counts too, where the study reads its joints.",
     causes: "Gears, belts, shafts and torque sensors of an arm are elastic: what the motor's encoder reads is not where the \
              link is.",
     looks: "Sag that is largest with the arm stretched out level, and changes sign on the other side. One number for all poses, unlike \
@@ -59,7 +60,9 @@ fn torques(setting: &Setting<'_>, joint: &JointAxis) -> Vec<Effect> {
     let Some(gravity) = seen::from_ground(setting, &setting.chain.gravity, place) else { return Vec::new() };
     let (a, b) = seen::others(joint.freedom.axis);
     let (a, b) = (a.index(), b.index());
-    let behind = setting.bodies().into_iter().filter(|&body| setting.chain.path(body).contains(&joint.body));
+    // Whatever the joint carries, whether it is on the way to what is observed or beside it.
+    let bodies = (0_u16..).take(setting.chain.bodies.len()).map(BodyId);
+    let behind = bodies.filter(|&body| setting.chain.path(body).contains(&joint.body));
     behind
         .filter_map(|body| {
             let origin = seen::origin(setting, body, place)?;
@@ -69,6 +72,7 @@ fn torques(setting: &Setting<'_>, joint: &JointAxis) -> Vec<Effect> {
             }
             let of = setting.body_name(body);
             Some(Effect {
+                bends: None,
                 family: FAMILY.name,
                 name: format!("compliance of {name} under the weight of {of}"),
                 place,

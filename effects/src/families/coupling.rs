@@ -25,6 +25,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                 for order in HARMONICS {
                     let stem = format!("cross_{}{}", freedom.word().to_lowercase(), name);
                     effects.push(Effect {
+                        bends: None,
                         family: FAMILY.name,
                         name: format!(
                             "coupling of {driver} into {name} {}, harmonic {order}",

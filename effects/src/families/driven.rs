@@ -29,6 +29,7 @@ pub(super) fn driven(
                     Function::new(Poly::symbol(input), stem)
                 };
                 effects.push(Effect {
+                    bends: None,
                     family,
                     name: format!("{name} in {body_name}{frame} {}", freedom.words()),
                     place: Place { body, role, freedom },

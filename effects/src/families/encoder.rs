@@ -33,6 +33,7 @@ pub(crate) fn encoder_harmonic(setting: &Setting<'_>, joint: &JointAxis, order: 
         _ => "enc",
     };
     Effect {
+        bends: None,
         family: FAMILY.name,
         name: harmonic_name(order, name),
         place: joint.place(),
@@ -57,6 +58,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
 pub(super) fn scale(family: &'static str, setting: &Setting<'_>, joint: &JointAxis) -> Effect {
     let name = setting.name(joint.symbol);
     Effect {
+        bends: None,
         family,
         name: format!("encoder scale of {name}"),
         place: joint.place(),

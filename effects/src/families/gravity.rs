@@ -27,6 +27,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
             let changing = changing(setting, place);
             let about = freedom.axis_name();
             let sag = |parts: &[(usize, Poly)], form: Dependence| Effect {
+                bends: None,
                 family: FAMILY.name,
                 name: format!("gravity flexure of {name} {}", freedom.words()),
                 place,
@@ -71,6 +72,7 @@ fn droop(setting: &Setting<'_>, id: ObservableId) -> Option<Effect> {
     }
     let name = setting.body_name(body);
     Some(Effect {
+        bends: None,
         family: FAMILY.name,
         name: format!("droop of {name} under gravity"),
         place: at(first),

@@ -22,6 +22,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
         let input = Kind::Turns(joint.symbol).input(setting)?;
         let name = setting.name(joint.symbol);
         Some(Effect {
+            bends: None,
             family: FAMILY.name,
             name: format!("index step of {name}"),
             place: joint.place(),

@@ -91,6 +91,7 @@ fn circles(
         // With the motion is against the reading where the body turns against it.
         let turn = Turn { angle: joint.symbol, name, order, forward: forward != joint.reversed };
         Effect {
+            bends: None,
             family: FAMILY.name,
             name: format!("{word} of the {name} axis, {} {sense}", per_turn(order)),
             place,
@@ -106,6 +107,7 @@ fn circles(
 fn tilt(setting: &Setting<'_>, joint: &JointAxis, freedom: Freedom, order: u32) -> Effect {
     let (name, about) = (setting.name(joint.symbol), freedom.axis_name());
     Effect {
+        bends: None,
         family: FAMILY.name,
         name: format!("tilt about {about} of the {name} axis, {}", per_turn(order)),
         place: joint.place().with(freedom),
@@ -119,6 +121,7 @@ fn tilt(setting: &Setting<'_>, joint: &JointAxis, freedom: Freedom, order: u32) 
 fn axial(setting: &Setting<'_>, joint: &JointAxis, order: u32) -> Effect {
     let name = setting.name(joint.symbol);
     Effect {
+        bends: None,
         family: FAMILY.name,
         name: format!("axial motion of the {name} axis, {}", per_turn(order)),
         place: joint.place().with(Freedom::along(joint.freedom.axis)),

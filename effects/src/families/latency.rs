@@ -26,6 +26,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
     // In the sense of the reading.
     let rate = |reversed: bool, input| if reversed { -&Poly::symbol(input) } else { Poly::symbol(input) };
     let effect = |name: String, functions, driver: String, place| Effect {
+        bends: None,
         family: FAMILY.name,
         name,
         place,

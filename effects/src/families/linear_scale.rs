@@ -3,7 +3,7 @@
 use super::encoder;
 use crate::candidate::{Effect, Family, Setting};
 
-pub(super) const FAMILY: Family = Family {
+pub(crate) const FAMILY: Family = Family {
     name: "linear scale",
     what: "A joint that shifts goes further, or less far, than its scale says, in proportion to the way.",
     causes: "The scale is warmer or colder than where it was divided, or expands unlike what it measures; the lead of the screw, the \

@@ -48,6 +48,7 @@ fn tilted(setting: &Setting<'_>, joint: &JointAxis) -> Option<Effect> {
         Function { amount: -&sine, elsewhere: vec![(across, cosine)], stem: format!("beam_sin_{name}") },
     ];
     Some(Effect {
+        bends: None,
         family: FAMILY.name,
         name: format!("beam not along the {name} axis before its mirror"),
         place: joint.place(),

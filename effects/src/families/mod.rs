@@ -16,7 +16,7 @@ mod high_harmonic;
 mod index_step;
 pub(crate) mod joint_motion;
 mod latency;
-mod linear_scale;
+pub(crate) mod linear_scale;
 mod mirror;
 mod own;
 mod parallax;
@@ -28,6 +28,7 @@ mod rotator;
 mod session;
 mod shape;
 mod side_quantity;
+pub(crate) mod slide;
 mod smooth;
 mod sub_division;
 mod tensor;
@@ -58,6 +59,7 @@ pub const FAMILIES: &[Family] = &[
     assembly::FAMILY,
     encoder::FAMILY,
     linear_scale::FAMILY,
+    slide::FAMILY,
     sub_division::FAMILY,
     index_step::FAMILY,
     gravity::FAMILY,

@@ -54,7 +54,15 @@ pub fn own(chain: &Chain, name: &str, place: Place, functions: &[&str]) -> Resul
         }
     }
     let driver = if drivers.is_empty() { "none".to_owned() } else { drivers.join(", ") };
-    Ok(Effect { family: FAMILY.name, name: name.to_owned(), place, functions, driver, form: "own".into() })
+    Ok(Effect {
+        bends: None,
+        family: FAMILY.name,
+        name: name.to_owned(),
+        place,
+        functions,
+        driver,
+        form: "own".into(),
+    })
 }
 
 /// A name that a declaration can have: letters, digits and underscores, not starting with a digit.

@@ -34,6 +34,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                 let name = setting.body_name(observable.body);
                 let stem = format!("parallax_{name}_{}", freedom.word().to_lowercase());
                 effects.push(Effect {
+                    bends: None,
                     family: FAMILY.name,
                     name: format!("parallax of {name} {}", freedom.words()),
                     place: Place { body: observable.body, role: Role::MotionError, freedom },

@@ -23,6 +23,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
         for freedom in Freedom::ALL.into_iter().filter(|&freedom| freedom != joint.freedom) {
             let stem = format!("play_{}_{name}", freedom.word().to_lowercase());
             effects.push(Effect {
+                bends: None,
                 family: FAMILY.name,
                 name: format!("play of {name} {}", freedom.words()),
                 place: joint.place().with(freedom),

@@ -41,6 +41,7 @@ fn product(setting: &Setting<'_>, first: &JointAxis, second: &JointAxis, own: &J
         }
     }
     Effect {
+        bends: None,
         family: FAMILY.name,
         name: format!("{a} and {b} together in {name} {}", own.freedom.words()),
         place: own.place(),

@@ -26,6 +26,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
     for (body, axis, input) in setting.ranges().into_iter().filter(|_| points) {
         let name = setting.name(input);
         let along = |what: String, functions, driver: &str, form: Dependence| Effect {
+            bends: None,
             family: FAMILY.name,
             name: what,
             place: Place { body, role: Role::MotionError, freedom: Freedom::along(axis) },

@@ -39,6 +39,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                     let turn = Turn { angle: input, name, order, forward };
                     let (sense, short) = if forward { ("forward", "fwd") } else { ("backward", "bwd") };
                     effects.push(Effect {
+                        bends: None,
                         family: FAMILY.name,
                         name: format!("circle with {name}, {} {sense}", per_turn(order)),
                         place,

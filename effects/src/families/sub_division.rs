@@ -28,6 +28,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
             let Some(order) = lines.checked_mul(times) else { continue };
             let often = if times == 1 { "once a line".to_owned() } else { format!("{times} per line") };
             effects.push(Effect {
+                bends: None,
                 family: FAMILY.name,
                 name: format!("sub-divisional error of {name}, {often}"),
                 place: joint.place(),

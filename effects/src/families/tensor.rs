@@ -19,6 +19,7 @@ pub fn tensor(setting: &Setting<'_>) -> Vec<Effect> {
             for freedom in Freedom::rotations().filter(|&freedom| setting.moves(upper.place().with(freedom)))
             {
                 effects.push(Effect {
+                    bends: None,
                     family: "smooth",
                     name: format!("a smooth function of {a} and {b} about {}", freedom.axis_name()),
                     place: upper.place().with(freedom),

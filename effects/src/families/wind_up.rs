@@ -27,6 +27,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
             .collect();
         if !functions.is_empty() {
             effects.push(Effect {
+                bends: None,
                 family: FAMILY.name,
                 name: format!("wind-up of {name} under gravity"),
                 place: joint.place(),

@@ -1,6 +1,6 @@
 //! Declarations, and what is written into one.
 
-use calibration::amend::{Addition, NewInput, amend};
+use calibration::amend::{Addition, NewInput, Spot, amend};
 use model_core::{BodyId, Chain, Role, syntax};
 use tables::units::Amount;
 
@@ -27,9 +27,8 @@ pub fn amended(input: &[u8]) {
         return;
     }
     let addition = Addition {
-        body: BodyId(0),
-        role: Role::MotionError,
-        factor: "Rx(found_by_fuzzing)".to_owned(),
+        spot: Spot::Factor(BodyId(0), Role::MotionError),
+        text: "Rx(found_by_fuzzing)".to_owned(),
         documentation: vec![name.to_owned()],
     };
     let input = NewInput { name: "fuzzed_input".to_owned(), meaning: None, documentation: name.to_owned() };

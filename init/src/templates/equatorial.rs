@@ -43,7 +43,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
     }
     if look.latitude_deg.is_none() {
         remarks.push(
-            "the latitude in the chain is a guess, on which only flexure under gravity depends: write yours"
+            "the latitude in the chain is a guess, on which flexure under gravity and refraction depend: write yours"
                 .to_owned(),
         );
     }
@@ -66,7 +66,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
 fn latitude(look: &Look) -> String {
     look.latitude_deg.map_or_else(
         || {
-            "    /// Latitude of the observer: a guess, on which only flexure under gravity depends.
+            "    /// Latitude of the observer: a guess, on which flexure under gravity and refraction depend.
     const latitude: angle = pi/4;"
                 .to_owned()
         },

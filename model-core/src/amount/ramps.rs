@@ -67,24 +67,33 @@ impl Chain {
         }
     }
 
-    /// Gives the ramps the values that follow from those of the other symbols; `values` by [`SymbolId`], SI.
-    pub fn set_ramps(&self, values: &mut [f64]) {
+    /// Gives the ramps and the angles of lines of sight the values that follow from those of the other symbols; `values` by
+    /// [`SymbolId`], SI.
+    pub fn set_derived(&self, values: &mut [f64]) {
         for ramp in &self.ramps {
             let value = ramp.value(values);
             if let Some(slot) = values.get_mut(ramp.symbol.index()) {
                 *slot = value;
             }
         }
+        for angle in &self.sight_angles {
+            let value = angle.value(values);
+            if let Some(slot) = values.get_mut(angle.symbol.index()) {
+                *slot = value;
+            }
+        }
     }
 
-    /// The symbols that an amount depends on, in order: those in it, and in place of a ramp those that it is made of.
+    /// The symbols that an amount depends on, in order: those in it, and in place of a ramp or of the angle of a line of sight those
+    /// that it follows from.
     #[must_use]
     pub fn symbols_in(&self, amount: &Poly) -> Vec<SymbolId> {
         let mut symbols: Vec<SymbolId> = Vec::new();
         for symbol in amount.symbols() {
-            match self.ramp(symbol) {
-                Some(ramp) => symbols.extend(ramp.depends_on()),
-                None => symbols.push(symbol),
+            match (self.ramp(symbol), self.sight_angle(symbol)) {
+                (Some(ramp), _) => symbols.extend(ramp.depends_on()),
+                (_, Some(angle)) => symbols.extend(angle.depends_on()),
+                (None, None) => symbols.push(symbol),
             }
         }
         symbols.sort_unstable();

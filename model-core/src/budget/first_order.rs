@@ -34,7 +34,8 @@ impl FirstOrder {
             }
             form => form.map(|form| (form, true)),
         };
-        let ramps = chain.ramps.iter().map(|ramp| ramp.symbol).collect();
+        let angles = chain.sight_angles.iter().map(|angle| angle.symbol);
+        let ramps = chain.ramps.iter().map(|ramp| ramp.symbol).chain(angles).collect();
         let shown = chain.observable(observable);
         // The components of a direction make an angle by its length.
         let is_angle = shown.is_vector() && shown.kind == ObservableKind::Direction;

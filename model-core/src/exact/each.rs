@@ -99,7 +99,7 @@ impl Each {
     /// The vector without errors, and what a unit of each error adds to it to first order, in the order of [`Self::errors`].
     #[must_use]
     pub fn slopes(&self, values: &[f64]) -> (Vector3<f64>, Vec<Vector3<f64>>) {
-        let values = &*self.path.with_ramps(values);
+        let values = &*self.path.with_derived(values);
         self.pass(values, |one, values, axis, before| {
             let slope = one.slope.eval(values);
             match before {
@@ -113,7 +113,7 @@ impl Each {
     /// precision. `values` has all errors at zero; `sizes` is in the order of [`Self::errors`].
     #[must_use]
     pub fn alone(&self, values: &mut [f64], sizes: &[f64]) -> (Vector3<f64>, Vec<Vector3<f64>>) {
-        let scratch = RefCell::new(self.path.with_ramps(values).into_owned());
+        let scratch = RefCell::new(self.path.with_derived(values).into_owned());
         let start = scratch.borrow().clone();
         let (nominal, mut added) = self.pass(&start, |one, _, axis, before| {
             if sizes[one.error] == 0.0 {
@@ -145,12 +145,12 @@ impl Each {
         if self.is_spread[index] {
             return None;
         }
-        let mut with_ramps;
-        let values = if self.path.ramps.is_empty() {
+        let mut with_derived;
+        let values = if self.path.ramps.is_empty() && self.path.angles.is_empty() {
             values
         } else {
-            with_ramps = self.path.with_ramps(values).into_owned();
-            &mut with_ramps
+            with_derived = self.path.with_derived(values).into_owned();
+            &mut with_derived
         };
         let nominal = Vector3::from_fn(|axis, _| self.path.vector[axis].nominal.eval(values));
         let mut amount = |one: &Use| {

@@ -13,6 +13,7 @@ use nalgebra::Vector3;
 
 use crate::algebra::Poly;
 use crate::chain::reading::Reading;
+use crate::chain::sight::SightAngle;
 use crate::chain::{Axis, Chain, ObservableId, ObservableKind, TransformKind};
 use crate::forms::error_table;
 use crate::ramp::Ramp;
@@ -30,6 +31,8 @@ pub struct Path {
     shown: Vec<Reading>,
     /// The ramps that the amounts use.
     ramps: Vec<Ramp>,
+    /// The angles of lines of sight that they use.
+    angles: Vec<SightAngle>,
 }
 
 #[derive(Debug, Clone)]
@@ -81,17 +84,24 @@ impl Path {
             vector: observable.components.each_ref().map(split),
             shown: observable.shown.clone(),
             ramps: Vec::new(),
+            angles: Vec::new(),
         };
-        path.ramps = path.own_symbols().into_iter().filter_map(|id| chain.ramp(id).cloned()).collect();
+        let own = path.own_symbols();
+        path.ramps = own.iter().filter_map(|&id| chain.ramp(id).cloned()).collect();
+        path.angles = own.iter().filter_map(|&id| chain.sight_angle(id).cloned()).collect();
         path
     }
 
-    /// The symbols that the observable depends on, in order; in place of ramps those that they are made of.
+    /// The symbols that the observable depends on, in order; in place of ramps and of angles of lines of sight those that they follow
+    /// from.
     #[must_use]
     pub fn symbols(&self) -> Vec<SymbolId> {
         let mut symbols = self.own_symbols();
-        symbols.retain(|&id| self.ramps.iter().all(|ramp| ramp.symbol != id));
+        let derived = self.ramps.iter().map(|ramp| ramp.symbol);
+        let derived: Vec<SymbolId> = derived.chain(self.angles.iter().map(|angle| angle.symbol)).collect();
+        symbols.retain(|id| !derived.contains(id));
         symbols.extend(self.ramps.iter().flat_map(Ramp::depends_on));
+        symbols.extend(self.angles.iter().flat_map(SightAngle::depends_on));
         symbols.sort_unstable();
         symbols.dedup();
         symbols
@@ -207,9 +217,15 @@ impl Path {
         })
     }
 
-    /// The values with those of ramps, which follow from the others.
-    fn with_ramps<'v>(&self, values: &'v [f64]) -> Cow<'v, [f64]> {
+    /// The values with those of ramps and of angles of lines of sight, which follow from the others.
+    fn with_derived<'v>(&self, values: &'v [f64]) -> Cow<'v, [f64]> {
         let mut values = Cow::Borrowed(values);
+        for angle in &self.angles {
+            let value = angle.value(&values);
+            if let Some(slot) = values.to_mut().get_mut(angle.symbol.index()) {
+                *slot = value;
+            }
+        }
         for ramp in &self.ramps {
             let value = ramp.value(&values);
             if let Some(slot) = values.to_mut().get_mut(ramp.symbol.index()) {
@@ -221,7 +237,7 @@ impl Path {
 
     /// A vector of the body in the frame that the observable is seen in.
     fn carried(&self, values: &[f64], start: impl Fn(&[f64]) -> Parts) -> Parts {
-        let values = &*self.with_ramps(values);
+        let values = &*self.with_derived(values);
         let mut parts = start(values);
         for step in &self.steps {
             let [nominal, linear, beyond] = [&step.amount.nominal, &step.amount.linear, &step.amount.beyond]

@@ -253,7 +253,10 @@ fn equations(
     let mut equations: Vec<Row> = Vec::new();
     let special = special(chain);
     let varies = |symbol: SymbolId| {
-        matches!(chain.symbol(symbol).kind, SymbolKind::Joint | SymbolKind::Input | SymbolKind::Ramp)
+        matches!(
+            chain.symbol(symbol).kind,
+            SymbolKind::Joint | SymbolKind::Input | SymbolKind::Ramp | SymbolKind::SightAngle
+        )
     };
     for &observable in observables {
         let form = forms::derive_within(&without_placement(chain, observable), observable, 1, FORM_LIMIT)?;

@@ -93,13 +93,28 @@ pub enum DomainError {
         /// `sine` or `cosine`.
         function: &'static str,
     },
+    /// The same of an angle between a line of sight and up.
+    #[error(
+        "`{name}` follows from the joints and may pass a place where the {function} in a denominator is zero; \
+         state ranges of the joints that keep away"
+    )]
+    SingularSight {
+        /// The angle.
+        name: String,
+        /// `sine` or `cosine`.
+        function: &'static str,
+    },
 }
 
 impl DomainError {
     /// A denominator that vanishes.
     pub(super) fn singular(chain: &Chain, symbol: SymbolId, of_sine: bool) -> Self {
         let name = chain.symbol(symbol).name.clone();
-        Self::Singular { name, function: if of_sine { "sine" } else { "cosine" } }
+        let function = if of_sine { "sine" } else { "cosine" };
+        match chain.symbol(symbol).kind {
+            SymbolKind::SightAngle => Self::SingularSight { name, function },
+            _ => Self::Singular { name, function },
+        }
     }
 }
 
@@ -113,6 +128,7 @@ impl Domain {
             SymbolKind::Error => Some([0.0, 0.0]),
             SymbolKind::Constant => symbol.value.map(|value| [value, value]),
             SymbolKind::Ramp => Some([0.0, 1.0]),
+            SymbolKind::SightAngle => Some([0.0, std::f64::consts::PI.next_up()]),
             SymbolKind::Joint | SymbolKind::Input => None,
         };
         Self { ranges: chain.symbols.iter().map(range).collect() }
@@ -133,6 +149,7 @@ impl Domain {
             return Err(DomainError::NoRange { name: chain.symbol(symbol).name.clone(), low, high });
         }
         self.ranges[symbol.index()] = Some([low, high]);
+        self.follow(chain);
         Ok(())
     }
 
@@ -148,6 +165,17 @@ impl Domain {
     #[must_use]
     pub fn range(&self, symbol: SymbolId) -> Option<[f64; 2]> {
         self.ranges.get(symbol.index()).copied().flatten()
+    }
+
+    /// Narrows the angles of lines of sight to what the other ranges leave of them.
+    fn follow(&mut self, chain: &Chain) {
+        /// More than an arc cosine is rounded by.
+        const ROUNDING_RAD: f64 = 1e-14;
+        for angle in &chain.sight_angles {
+            let Ok(cosine) = self.enclose(chain, &angle.cosine) else { continue };
+            let [high, low] = [cosine.low, cosine.high].map(|cosine| cosine.clamp(-1.0, 1.0).acos());
+            self.ranges[angle.symbol.index()] = Some([(low - ROUNDING_RAD).max(0.0), high + ROUNDING_RAD]);
+        }
     }
 
     /// By the number of each symbol.

@@ -49,8 +49,8 @@ pub fn search(
     for id in path.symbols() {
         let symbol = chain.symbol(id);
         match (symbol.kind, domain.range(id)) {
-            // The path gives ramps their values.
-            (SymbolKind::Pi | SymbolKind::Constant | SymbolKind::Ramp, _) => {}
+            // The path gives ramps and angles of lines of sight their values.
+            (SymbolKind::Pi | SymbolKind::Constant | SymbolKind::Ramp | SymbolKind::SightAngle, _) => {}
             (SymbolKind::Error, Some([low, high])) if high - low > WIDE => climbed.push((id, [low, high])),
             (SymbolKind::Error, Some([low, high])) if low < high => cornered.push((id, [low, high])),
             (SymbolKind::Error, _) => {}
@@ -75,7 +75,7 @@ pub fn search(
         // What errors do together to second order is large where they add up to first: each at the end that moves the vector
         // to the same side.
         let side = Vector3::from_fn(|_, _| 2.0 * random.uniform() - 1.0);
-        chain.set_ramps(&mut values);
+        chain.set_derived(&mut values);
         let (_, slopes) = each.slopes(&values);
         for &(id, [low, high]) in &cornered {
             let there = each.errors().binary_search(&id).map_or(0.0, |index| slopes[index].dot(&side));

@@ -111,6 +111,17 @@ pub struct InputStatement {
     pub meaning: Option<Ident>,
     /// The joint or length that it is of, as written: `beta` of `direction of beta`.
     pub of: Option<Ident>,
+    /// What it is the angle between, where it is derived and not measured.
+    pub between: Option<BetweenTerm>,
+}
+
+/// `between(sky, up)`
+#[derive(Debug, Clone)]
+pub struct BetweenTerm {
+    /// The observable.
+    pub sight: Ident,
+    /// `up`, as written.
+    pub up: Ident,
 }
 
 /// `symbol dg2 = r"\Delta\gamma_2";`
@@ -142,6 +153,19 @@ pub struct ObserveStatement {
     pub body: Ident,
     /// The name of the body in whose frame it is seen, if one is given.
     pub frame: Option<Ident>,
+    /// How its line of sight is bent.
+    pub bent: Option<Box<BentTerm>>,
+    /// The last word before the `;`.
+    pub last: Span,
+}
+
+/// `bent up by refraction*tan(zenith)`
+#[derive(Debug, Clone)]
+pub struct BentTerm {
+    /// The word `bent`.
+    pub keyword: Span,
+    /// By how much; `None` if it could not be read.
+    pub amount: Option<Expr<Span>>,
 }
 
 /// `azimuth(x, -y)`
@@ -220,7 +244,10 @@ impl Declaration {
                     let factors = body.groups.iter().flat_map(|group| &group.factors);
                     factors.filter_map(|factor| factor.amount.as_ref()).collect()
                 }
-                Statement::Observe(observe) => observe.components.iter().flatten().collect(),
+                Statement::Observe(observe) => {
+                    let bent = observe.bent.iter().flat_map(|bent| &bent.amount);
+                    observe.components.iter().flatten().chain(bent).collect()
+                }
                 Statement::Gravity(gravity) => gravity.components.iter().flatten().collect(),
                 Statement::Constant(_) | Statement::Input(_) | Statement::Symbol(_) => Vec::new(),
             }

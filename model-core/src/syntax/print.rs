@@ -6,8 +6,8 @@ use std::fmt::{self, Display, Formatter};
 use super::ORIENTATION;
 use super::amount::{FUNCTIONS, RAMP};
 use super::declaration::{
-    AxisTerm, BodyStatement, ConstantStatement, Declaration, FactorGroup, FactorTerm, GravityStatement,
-    InputStatement, ObserveStatement, ReadingTerm, Statement, SymbolStatement,
+    AxisTerm, BetweenTerm, BodyStatement, ConstantStatement, Declaration, FactorGroup, FactorTerm,
+    GravityStatement, InputStatement, ObserveStatement, ReadingTerm, Statement, SymbolStatement,
 };
 use crate::expr::{Expr, Node};
 
@@ -41,7 +41,7 @@ impl Display for Declaration {
                         None => writeln!(f, ";")?,
                     }
                 }
-                Statement::Input(InputStatement { documentation: text, name, meaning, of }) => {
+                Statement::Input(InputStatement { documentation: text, name, meaning, of, between }) => {
                     documentation(f, "    ", text)?;
                     write!(f, "    input {name}")?;
                     if let Some(meaning) = meaning {
@@ -49,6 +49,9 @@ impl Display for Declaration {
                     }
                     if let Some(of) = of {
                         write!(f, " of {of}")?;
+                    }
+                    if let Some(BetweenTerm { sight, up }) = between {
+                        write!(f, " = between({sight}, {up})")?;
                     }
                     writeln!(f, ";")?;
                 }
@@ -64,6 +67,8 @@ impl Display for Declaration {
                     components,
                     body,
                     frame,
+                    bent,
+                    last: _,
                 }) => {
                     documentation(f, "    ", text)?;
                     let [x, y, z] = components.each_ref().map(|component| Written(component.as_ref()));
@@ -76,6 +81,9 @@ impl Display for Declaration {
                     }
                     if let Some(frame) = frame {
                         write!(f, " in {frame}")?;
+                    }
+                    if let Some(bent) = bent {
+                        write!(f, ", bent up by {}", Written(bent.amount.as_ref()))?;
                     }
                     writeln!(f, ";")?;
                 }

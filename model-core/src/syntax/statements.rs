@@ -6,8 +6,8 @@ use syn::buffer::Cursor;
 
 use super::amount;
 use super::declaration::{
-    AxisTerm, BodyStatement, ConstantStatement, Declaration, FactorGroup, FactorTerm, GravityStatement,
-    InputStatement, ObserveStatement, ReadingTerm, Statement, SymbolStatement,
+    AxisTerm, BentTerm, BetweenTerm, BodyStatement, ConstantStatement, Declaration, FactorGroup, FactorTerm,
+    GravityStatement, InputStatement, ObserveStatement, ReadingTerm, Statement, SymbolStatement,
 };
 use super::tokens::Reader;
 use crate::algebra::Rational;
@@ -25,6 +25,9 @@ const BODY_HELP: &str = "write `body name on ground { … }`, or the lower body'
 const CONSTANT_HELP: &str = "write `const name: length = 0.25;` or `const name: angle = pi/6;`";
 const INPUT_HELP: &str =
     "write `input name;`, or say what it is: `input name: temperature;`, `input name: direction of joint;`";
+const BETWEEN_HELP: &str =
+    "write `input zenith: angle = between(sky, up);`, with the name of an observed direction for `sky`";
+const BENT_HELP: &str = "write `observe sky: direction(0, 0, 1) of tube, bent up by refraction*tan(zenith);`";
 const SYMBOL_HELP: &str = r#"write `symbol name = r"\delta_1";`"#;
 const OBSERVE_HELP: &str =
     "write `observe name: direction(0, 0, 1) of body;` or `observe name: point(0, 0, 0) of body;`";
@@ -227,8 +230,35 @@ fn input(reader: &mut Reader<'_, '_>, documentation: String) -> Read<InputStatem
         }
         _ => None,
     };
+    let between = if reader.mark('=').is_some() { Some(between(reader)?) } else { None };
     reader.end_of_statement()?;
-    Ok(InputStatement { documentation, name, meaning, of })
+    Ok(InputStatement { documentation, name, meaning, of, between })
+}
+
+/// `between(sky, up)`
+fn between(reader: &mut Reader<'_, '_>) -> Read<BetweenTerm> {
+    reader.keyword("between", BETWEEN_HELP)?;
+    let Some((inside, parentheses)) = reader.group(Delimiter::Parenthesis) else {
+        return Err(reader.expected("`(`").with_help(BETWEEN_HELP));
+    };
+    let parts = reader.inside(inside, parentheses.close, |reader| {
+        let sight = reader.name("the name of an observable")?;
+        reader.expect_mark(',', BETWEEN_HELP)?;
+        let up = reader.name("`up`")?;
+        if reader.is_at_end() { Ok(BetweenTerm { sight, up }) } else { Err(reader.expected("`)`")) }
+    });
+    parts.map_err(|mistake: Mistake<Span>| mistake.with_help(BETWEEN_HELP))
+}
+
+/// `, bent up by refraction*tan(zenith)`
+fn bent(reader: &mut Reader<'_, '_>) -> Read<Option<Box<BentTerm>>> {
+    if reader.mark(',').is_none() {
+        return Ok(None);
+    }
+    let keyword = reader.keyword("bent", BENT_HELP)?;
+    reader.keyword("up", BENT_HELP)?;
+    reader.keyword("by", BENT_HELP)?;
+    Ok(Some(Box::new(BentTerm { keyword, amount: amount::part(reader) })))
 }
 
 /// What stands behind a colon, if there is one.
@@ -287,8 +317,10 @@ fn observe(reader: &mut Reader<'_, '_>, documentation: String) -> Read<ObserveSt
         }
         _ => None,
     };
+    let bent = bent(reader)?;
+    let last = reader.last;
     reader.end_of_statement()?;
-    Ok(ObserveStatement { documentation, name, readings, kind, components, body, frame })
+    Ok(ObserveStatement { documentation, name, readings, kind, components, body, frame, bent, last })
 }
 
 /// Whether a reading stands here and not the vector itself: a word, perhaps with axes, before `,` or before `of` and a

@@ -33,6 +33,8 @@ pub enum Purpose<'a> {
     Component(&'a ObserveStatement),
     /// A component of the direction of gravity.
     Gravity,
+    /// By how much a line of sight is bent.
+    Bend(&'a ObserveStatement),
 }
 
 /// One amount.
@@ -75,6 +77,8 @@ pub fn collect<'a>(
                 for component in &observe.components {
                     add(component.as_ref(), Purpose::Component(observe));
                 }
+                let bent = observe.bent.as_ref();
+                add(bent.and_then(|bent| bent.amount.as_ref()), Purpose::Bend(observe));
             }
             Statement::Gravity(gravity) => {
                 for component in &gravity.components {
@@ -91,7 +95,7 @@ pub fn collect<'a>(
 fn turned(value: Poly, purpose: &Purpose<'_>, scope: &Scope) -> Poly {
     let (role, TransformKind::Rotation) = (match purpose {
         Purpose::Factor { role, kind, .. } => (*role, *kind),
-        Purpose::Component(_) | Purpose::Gravity => return value,
+        Purpose::Component(_) | Purpose::Gravity | Purpose::Bend(_) => return value,
     }) else {
         return value;
     };

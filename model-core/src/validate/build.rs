@@ -2,17 +2,19 @@
 
 use std::collections::BTreeMap;
 
-use proc_macro2::Ident;
+use proc_macro2::{Ident, Span};
 
 use super::Subject;
 use super::amounts::{Amount, Purpose};
 use super::printed_form;
 use super::quantity::inferred;
 use super::scope::documentation;
+use super::sight;
 use super::words::{self, GROUND, OBSERVABLE_KINDS, meaning};
 use crate::algebra::{Poly, Rational};
 use crate::chain::reading::{COMPONENTS, ROTATION, Reading};
 use crate::chain::{Body, BodyId, Chain, Factor, Observable};
+use crate::mistake::Mistake;
 use crate::symbol::{Quantity, Symbol, SymbolId, SymbolKind};
 use crate::syntax::ORIENTATION;
 use crate::syntax::declaration::{BodyStatement, ObserveStatement, ReadingTerm};
@@ -21,7 +23,10 @@ use crate::syntax::declaration::{BodyStatement, ObserveStatement, ReadingTerm};
 const RULED: &str = "a declaration that breaks a rule is not built";
 
 /// The chain of a declaration that breaks no rule.
-pub fn chain(subject: &Subject<'_>) -> Chain {
+///
+/// # Errors
+/// Lines of sight whose angle from up the algebra cannot follow.
+pub fn chain(subject: &Subject<'_>) -> Result<Chain, Vec<Mistake<Span>>> {
     let bodies = in_order(subject.declaration.bodies().collect());
     let ids: BTreeMap<String, BodyId> =
         (0u16..).zip(&bodies).map(|(index, body)| (body.name.to_string(), BodyId(index))).collect();
@@ -59,16 +64,19 @@ pub fn chain(subject: &Subject<'_>) -> Chain {
                     [] => COMPONENTS.to_vec(),
                     readings => readings.iter().map(reading).collect(),
                 },
+                bend: None,
             })
             .collect(),
         ramps: Vec::new(),
+        sight_angles: Vec::new(),
         gravity: gravity(subject),
     };
     for ramp in subject.scope.ramps() {
         let symbol = chain.add_ramp(ramp.of, ramp.from.clone(), ramp.to.clone());
         assert_eq!(symbol, Some(ramp.symbol), "the ramps are the last names of the scope, in order");
     }
-    chain
+    sight::complete(subject, &mut chain)?;
+    Ok(chain)
 }
 
 /// The bodies, each after its lower body, otherwise in the order of the text.

@@ -12,6 +12,7 @@ mod printed_form;
 mod quantity;
 mod rules;
 mod scope;
+mod sight;
 mod words;
 
 pub use words::is_name;
@@ -157,5 +158,14 @@ fn validated(declaration: &Declaration, mistakes: &mut Vec<Mistake<Span>>) -> Op
     for (_, rule) in rules::RULES {
         rule(&subject, mistakes);
     }
-    mistakes.is_empty().then(|| build::chain(&subject))
+    if !mistakes.is_empty() {
+        return None;
+    }
+    match build::chain(&subject) {
+        Ok(chain) => Some(chain),
+        Err(found) => {
+            mistakes.extend(found);
+            None
+        }
+    }
 }

@@ -19,10 +19,12 @@ use crate::symbol::{Quantity, SymbolId};
 
 /// What one factor says of an error.
 pub fn inferred(scope: &Scope, amount: &Amount<'_>) -> Vec<(SymbolId, Quantity)> {
-    let (Purpose::Factor { kind, .. }, Some(value)) = (&amount.purpose, &amount.value) else {
-        return Vec::new();
+    let Some(value) = &amount.value else { return Vec::new() };
+    let moved = match &amount.purpose {
+        Purpose::Factor { kind, .. } => quantity_moved(*kind),
+        Purpose::Bend(_) => Quantity::Angle,
+        Purpose::Component(_) | Purpose::Gravity => return Vec::new(),
     };
-    let moved = quantity_moved(*kind);
     let by_error = value.graded_part(|id| scope.is_error(id), 1).collect_by(|id| scope.is_error(id));
     let mut found = Vec::new();
     for (monomial, cofactor) in by_error {

@@ -17,7 +17,7 @@ use crate::expr::{Expr, Node};
 use crate::ramp::Ramp;
 use crate::symbol::{Meaning, Quantity, SymbolId, SymbolKind};
 use crate::syntax::Declaration;
-use crate::syntax::declaration::{BodyStatement, FactorGroup, FactorTerm, Statement};
+use crate::syntax::declaration::{BodyStatement, FactorGroup, FactorTerm, ObserveStatement, Statement};
 
 /// One name of the scope.
 pub struct Entry {
@@ -71,17 +71,24 @@ impl Scope {
                 Statement::Input(input) => {
                     let meaning =
                         input.meaning.as_ref().and_then(|word| words::meaning(&Meaning::WORDS, word));
+                    let (kind, quantity, meaning) = match &input.between {
+                        Some(_) => (SymbolKind::SightAngle, Quantity::Angle, None),
+                        None => {
+                            (SymbolKind::Input, meaning.map_or(Quantity::Number, Meaning::quantity), meaning)
+                        }
+                    };
                     scope.declare(Entry {
                         name: input.name.to_string(),
-                        kind: SymbolKind::Input,
-                        quantity: Some(meaning.map_or(Quantity::Number, Meaning::quantity)),
+                        kind,
+                        quantity: Some(quantity),
                         meaning,
                         documentation: input.documentation.clone(),
                         value: None,
                     });
                 }
                 Statement::Body(body) => scope.declare_used(body, &fixed),
-                Statement::Symbol(_) | Statement::Observe(_) | Statement::Gravity(_) => {}
+                Statement::Observe(observe) => scope.declare_bent(observe, &fixed),
+                Statement::Symbol(_) | Statement::Gravity(_) => {}
             }
         }
         for symbol in declaration.printed_symbols().filter(|symbol| !symbol.documentation.is_empty()) {
@@ -150,6 +157,24 @@ impl Scope {
                         self.moved_by(name, factor, documentation);
                     }
                 }
+            }
+        }
+    }
+
+    /// The errors that a bending of a line of sight uses first.
+    fn declare_bent(&mut self, observe: &ObserveStatement, fixed: &BTreeMap<String, SymbolKind>) {
+        let Some(bent) = &observe.bent else { return };
+        self.is_complete &= bent.amount.is_some();
+        for (name, _) in bent.amount.iter().flat_map(|amount| amount.names()) {
+            if !fixed.contains_key(name) {
+                self.declare(Entry {
+                    name: name.to_owned(),
+                    kind: SymbolKind::Error,
+                    quantity: None,
+                    meaning: None,
+                    documentation: observe.documentation.clone(),
+                    value: None,
+                });
             }
         }
     }
@@ -273,7 +298,8 @@ fn fixed_kinds(declaration: &Declaration) -> BTreeMap<String, SymbolKind> {
         kinds.entry(constant.name.to_string()).or_insert(SymbolKind::Constant);
     }
     for input in declaration.inputs() {
-        kinds.entry(input.name.to_string()).or_insert(SymbolKind::Input);
+        let kind = if input.between.is_some() { SymbolKind::SightAngle } else { SymbolKind::Input };
+        kinds.entry(input.name.to_string()).or_insert(kind);
     }
     let motions = declaration
         .bodies()

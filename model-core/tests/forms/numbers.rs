@@ -68,7 +68,7 @@ fn validate_the_parts_of_degree_one_two_and_three() {
             let error = chain.symbol(id).kind == SymbolKind::Error;
             values[id.index()] = if error { value / line.size } else { *value };
         }
-        chain.set_ramps(&mut values);
+        chain.set_derived(&mut values);
         let mut lower = [0.0; 3];
         for order in 1..=3 {
             let form = forms::derive(&chain, observable, order).unwrap();

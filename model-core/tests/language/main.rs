@@ -8,3 +8,4 @@ mod joints;
 mod mistakes;
 mod properties;
 mod ramps;
+mod sight;

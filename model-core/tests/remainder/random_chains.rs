@@ -95,7 +95,7 @@ proptest! {
         for (index, symbol) in (0u16..).zip(&chain.symbols) {
             let id = model_core::SymbolId(index);
             let (low, high) = match symbol.kind {
-                SymbolKind::Pi | SymbolKind::Constant | SymbolKind::Ramp => continue,
+                SymbolKind::Pi | SymbolKind::Constant | SymbolKind::Ramp | SymbolKind::SightAngle => continue,
                 SymbolKind::Error => (-10f64.powf(exponent), 10f64.powf(exponent)),
                 // Away from the poles of the tangent.
                 SymbolKind::Joint => (-1.2, 1.3),
@@ -140,7 +140,7 @@ fn verify_the_remainder_is_exact_minus_first_order() {
                 match symbol.kind {
                     SymbolKind::Error => values[place] = 0.03 * wave,
                     SymbolKind::Joint | SymbolKind::Input => values[place] = 0.8 + 0.5 * wave,
-                    SymbolKind::Pi | SymbolKind::Constant | SymbolKind::Ramp => {}
+                    SymbolKind::Pi | SymbolKind::Constant | SymbolKind::Ramp | SymbolKind::SightAngle => {}
                 }
             }
             let (error, remainder) = (path.error(&values), path.remainder(&values));

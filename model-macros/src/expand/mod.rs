@@ -112,7 +112,8 @@ pub fn module(chain: &Chain, names: &Names) -> Result<TokenStream, Vec<Mistake<S
     let structures = tokens(&structures, names);
     let rows = (context.has(SymbolKind::Joint) || context.has(SymbolKind::Input)).then(|| rows(&context));
     let ramps = (!chain.ramps.is_empty()).then(ramps);
-    let has_angles = chain.observables.iter().any(|observable| !observable.has_components_only());
+    let has_angles = !chain.sight_angles.is_empty()
+        || chain.observables.iter().any(|observable| !observable.has_components_only());
     let angles = has_angles.then(angles);
     let helpers = exact::helpers(&context);
     Ok(quote! {
@@ -152,7 +153,7 @@ pub fn module(chain: &Chain, names: &Names) -> Result<TokenStream, Vec<Mistake<S
     })
 }
 
-/// What readings are made of.
+/// What readings and angles of lines of sight are made of.
 fn angles() -> TokenStream {
     quote! {
         /// The square root.

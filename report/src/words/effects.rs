@@ -16,6 +16,9 @@ pub fn headline(effect: &EffectFound) -> String {
     let amplitude = numbers::short(effect.amplitude, effect.amplitude_unit);
     let body = body_in_words(&effect.body);
     let form = form(&effect.form, &effect.driver);
+    if effect.bends.is_some() {
+        return format!("The line of sight is bent along the vertical by up to {amplitude}, {form}.");
+    }
     let turns = effect.dof.starts_with('R');
     let does = if turns { "is rotated" } else { "is displaced" };
     let axis = axis(&effect.dof);
@@ -52,6 +55,9 @@ pub(super) fn moves(dof: &str) -> String {
 /// Where an effect sits: `a rotation about x in the body middle, after its joint beta`.
 #[must_use]
 pub fn place(effect: &EffectFound, diagnosis: &Diagnosis) -> String {
+    if let Some(sight) = &effect.bends {
+        return format!("a bending of the line of sight {sight}, between the instrument and its target");
+    }
     let joints: Vec<&str> = diagnosis
         .instrument
         .bodies

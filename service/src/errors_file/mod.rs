@@ -311,6 +311,7 @@ fn kind_in_words(kind: SymbolKind) -> &'static str {
     match kind {
         SymbolKind::Pi => "the number π",
         SymbolKind::Ramp => "a ramp",
+        SymbolKind::SightAngle => "an angle of a line of sight",
         SymbolKind::Joint => "a joint",
         SymbolKind::Error => "an error",
         SymbolKind::Constant => "a constant",

@@ -213,8 +213,8 @@ mod tests {
                 let effect = &catalogue[pick.index(catalogue.len())];
                 let (with, errors) = effect.add_to(&amended).unwrap();
                 amended = with;
-                additions.extend(effect.texts(&amended, &errors).into_iter().map(|(body, role, factor)| {
-                    Addition { body, role, factor, documentation: Vec::new() }
+                additions.extend(effect.texts(&amended, &errors).into_iter().map(|(spot, text)| {
+                    Addition { spot, text, documentation: Vec::new() }
                 }));
             }
             let text = amend(&text, &amended, &additions, &[]).unwrap();

@@ -131,7 +131,10 @@ impl Links {
 fn readings(chain: &Chain, amount: &Poly) -> Vec<SymbolId> {
     let mut all = amount.symbols();
     all.retain(|id| {
-        matches!(chain.symbol(*id).kind, SymbolKind::Joint | SymbolKind::Input | SymbolKind::Ramp)
+        matches!(
+            chain.symbol(*id).kind,
+            SymbolKind::Joint | SymbolKind::Input | SymbolKind::Ramp | SymbolKind::SightAngle
+        )
     });
     all
 }

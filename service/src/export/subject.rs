@@ -166,6 +166,7 @@ impl Subject {
     pub fn at(&self, pose: usize, values: &[f64]) -> Vec<f64> {
         let mut all = values.to_vec();
         self.poses.readings.iter().for_each(|(id, column)| all[id.index()] = column[pose]);
+        self.chain.set_derived(&mut all);
         all
     }
 }
@@ -183,10 +184,39 @@ impl Poses {
             })
         };
         let ranges: Vec<(f64, f64)> = needed.iter().map(range).collect::<Result<_, _>>()?;
-        let readings = spread_over(chain, &needed, &ranges, POSES);
+        let mut readings = spread_over(chain, &needed, &ranges, POSES);
+        let kept = above_the_horizon(chain, observable, &readings);
+        for (_, column) in &mut readings {
+            *column = kept.iter().map(|&pose| column[pose]).collect();
+        }
         let ranges = ranges.into_iter().map(|(low, high)| [low, high]).collect();
-        Ok(Self { readings, ranges, count: POSES })
+        Ok(Self { readings, ranges, count: kept.len() })
     }
+}
+
+/// The poses whose line of sight points well above the horizon, where an error follows its angle from up; else all. Ranges of two
+/// joints hold poses below the horizon that nobody measured.
+fn above_the_horizon(
+    chain: &Chain,
+    observable: ObservableId,
+    readings: &[(SymbolId, Vec<f64>)],
+) -> Vec<usize> {
+    /// Beyond it, the tangent of the zenith distance is no smooth function of the air.
+    ///
+    /// Source: R. C. Stone, "An accurate method for computing atmospheric refraction", PASP 108 (1996) 1051: tan and tan³
+    /// describe refraction to a zenith distance of some 75°.
+    const FARTHEST_RAD: f64 = 75.0 * std::f64::consts::PI / 180.0;
+    let used: Vec<SymbolId> =
+        chain.way(observable).iter().flat_map(|passed| passed.factor.amount.symbols()).collect();
+    let angles = chain.sight_angles.iter().filter(|angle| used.contains(&angle.symbol));
+    let angles: Vec<_> = angles.collect();
+    let mut values = chain.nominal_values();
+    let mut is_above = |pose: usize| {
+        readings.iter().for_each(|(id, column)| values[id.index()] = column[pose]);
+        angles.iter().all(|angle| angle.value(&values) <= FARTHEST_RAD)
+    };
+    let kept: Vec<usize> = (0..POSES).filter(|&pose| is_above(pose)).collect();
+    if kept.is_empty() { (0..POSES).collect() } else { kept }
 }
 
 /// The angle between two directions, rad; to its last digit where it is small.

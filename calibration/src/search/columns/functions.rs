@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use model_core::algebra::{Poly, Wave};
-use model_core::{Chain, SymbolId};
+use model_core::{Chain, SymbolId, SymbolKind};
 
 use observe::Poses;
 use observe::waves::waves;
@@ -64,8 +64,23 @@ impl<'a> Functions<'a> {
             };
             return Some(of.iter().map(value).collect());
         }
+        if let Some(angle) = self.chain.sight_angle(symbol) {
+            let read: Vec<(SymbolId, &[f64])> =
+                angle.depends_on().filter_map(|id| Some((id, self.poses.column(id)?))).collect();
+            let mut values = self.values.to_vec();
+            values.resize(values.len().max(self.chain.symbols.len()), 0.0);
+            let value = |row: usize| {
+                for (id, readings) in &read {
+                    values[id.index()] = readings[row];
+                }
+                angle.value(&values)
+            };
+            return Some((0..self.poses.rows()).map(value).collect());
+        }
         match self.poses.column(symbol) {
             Some(readings) => Some(readings.to_vec()),
+            // A joint beside the way stands where nobody knows, if it is not read.
+            None if self.chain.symbol(symbol).kind == SymbolKind::Joint => None,
             None => self.values.get(symbol.index()).map(|&value| vec![value; self.poses.rows()]),
         }
     }

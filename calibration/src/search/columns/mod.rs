@@ -12,7 +12,7 @@ use std::ops::Range;
 use codegen::vector::{self, Arithmetic};
 use faer::Mat;
 use model_core::algebra::Poly;
-use model_core::{Chain, SymbolId, SymbolKind};
+use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 
 use effects::candidate::{Effect, EffectId, Place, add_error, insert};
 use fit::{Block, FitError, Model};
@@ -252,8 +252,13 @@ impl Columns {
                         let at = known.iter().position(|(other, ..)| *other == amount).unwrap_or_else(|| {
                             let mut by_row = readings.column(amount);
                             let symbols = amount.symbols();
-                            let of_joints =
-                                symbols.iter().all(|&id| chain.symbol(id).kind != SymbolKind::Input);
+                            // How small a function of a length is depends on the unit.
+                            let has_size = |&id: &SymbolId| {
+                                let symbol = chain.symbol(id);
+                                symbol.kind == SymbolKind::Input
+                                    || symbol.kind == SymbolKind::Joint && symbol.quantity == Quantity::Length
+                            };
+                            let of_joints = !symbols.iter().any(has_size);
                             let extent = Extent::of(by_row.as_deref_mut(), of_joints);
                             let spread =
                                 |by_row: Vec<f64>| self.row.iter().map(|&row| by_row[row as usize]).collect();

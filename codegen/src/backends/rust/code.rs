@@ -42,7 +42,9 @@ impl Notation for Rust<'_> {
             (SymbolKind::Pi | SymbolKind::Constant, _) => {
                 self.number(crate::backends::declared(self.chain, id))
             }
-            (SymbolKind::Ramp, _) => unreachable!("a ramp is computed from its joint or input"),
+            (SymbolKind::Ramp | SymbolKind::SightAngle, _) => {
+                unreachable!("a ramp or angle of a line of sight is computed from what it follows from")
+            }
             (SymbolKind::Error, _) => format!("errors.{name}"),
             (SymbolKind::Joint, Scope::Pose) => format!("joints.{name}"),
             (SymbolKind::Input, Scope::Pose) => format!("inputs.{name}"),

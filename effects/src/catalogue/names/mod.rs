@@ -1,4 +1,4 @@
-//! Names that other fields have for effects of the catalogue: TPOINT terms, parameters of laser scanners.
+//! Names that other fields have for effects of the catalogue: TPOINT terms, parameters of laser scanners, ISO 230-1.
 //!
 //! A name is published with a formula, across and along the line of sight; it belongs to every effect of a chain whose
 //! first-order column is that formula up to a factor, which the algebra decides. So it holds for chains whose line of
@@ -8,6 +8,7 @@
 mod mount;
 mod pointing;
 mod scanner;
+mod slides;
 mod tpoint;
 
 use model_core::algebra::{BasisFunction, Poly};
@@ -72,11 +73,12 @@ pub fn published() -> Vec<Published> {
     [tpoint::alt_azimuth(), tpoint::equatorial(), scanner::additional(), scanner::nist()].concat()
 }
 
-/// The names of each of some effects, that is of any of its functions; none for chains whose line of sight runs in
-/// another way.
+/// The names of each of some effects, that is of any of its functions; for chains whose line of sight runs in another way
+/// those of slides alone.
 #[must_use]
 pub fn known_names(setting: &Setting<'_>, effects: &[Effect]) -> Vec<Vec<Name>> {
-    let Some(mount) = Mount::of(setting) else { return vec![Vec::new(); effects.len()] };
+    let of_slides = effects.iter().map(|effect| slides::name(setting, effect).into_iter().collect());
+    let Some(mount) = Mount::of(setting) else { return of_slides.collect() };
     let shapes: Vec<(Name, Shape)> = published()
         .into_iter()
         .filter(|published| published.kind == mount.kind)
@@ -112,7 +114,10 @@ type Shape = [Poly; 3];
 /// Whether two shapes are one another's multiples by something that no joint or input moves, and not zero.
 fn proportional(setting: &Setting<'_>, a: &Shape, b: &Shape) -> bool {
     let moves = |id: SymbolId| {
-        matches!(setting.chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input | SymbolKind::Ramp)
+        matches!(
+            setting.chain.symbol(id).kind,
+            SymbolKind::Joint | SymbolKind::Input | SymbolKind::Ramp | SymbolKind::SightAngle
+        )
     };
     let parts = |shape: &Shape| shape.each_ref().map(|part| part.split_by(moves));
     let (a, b) = (parts(a), parts(b));
@@ -137,6 +142,7 @@ impl Mount {
                 "E" | "d" => Some(self.elevation),
                 "R" => self.range,
                 "latitude" => self.latitude,
+                "z" => self.zenith,
                 _ => None,
             }
         };

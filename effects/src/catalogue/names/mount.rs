@@ -26,6 +26,8 @@ pub(super) struct Mount {
     pub elevation: SymbolId,
     pub range: Option<SymbolId>,
     pub latitude: Option<SymbolId>,
+    /// The zenith distance, where the chain has a name for it.
+    pub zenith: Option<SymbolId>,
     /// Unit vectors across, along and out, in the ground frame.
     pub frame: [[Poly; 3]; 3],
 }
@@ -61,7 +63,8 @@ impl Mount {
             _ => return None,
         };
         let (azimuth, elevation) = (lower.symbol, upper.symbol);
-        Some(Self { kind, observable, azimuth, elevation, range, latitude, frame })
+        let zenith = setting.chain.sight_angle_of(observable).map(|angle| angle.symbol);
+        Some(Self { kind, observable, azimuth, elevation, range, latitude, zenith, frame })
     }
 }
 

@@ -6,8 +6,7 @@
 //! reading so that it becomes the true place, on the sky: azimuth and hour angle corrections times the cosine of
 //! elevation or declination. TPOINT counts azimuth inside from south through east and corrections of it to the left;
 //! here both are written for an azimuth from north through east. A positive zenith distance correction lowers the
-//! elevation. TX of an equatorial mount has the cosine of the zenith distance below, which declarations cannot say; it
-//! is left out.
+//! elevation. `z` is the zenith distance.
 
 use super::mount::Kind;
 use super::{Published, Sides};
@@ -132,6 +131,7 @@ pub(super) fn equatorial() -> Vec<Published> {
     let kind = Kind::Equatorial;
     let fall = "cos(latitude)*cos(h)*sin(d) - sin(latitude)*cos(d)";
     let sink = "-cos(latitude)*cos(h)*cos(d) - sin(latitude)*sin(d)";
+    let (across_tx, along_tx) = ("cos(latitude)*sin(h)*sec(z)", format!("({fall})*sec(z)"));
     let mut terms = vec![
         term(kind, "IH", "index of hour angle", "cos(d)", ""),
         reversed(term(kind, "ID", "index of declination", "", "1")),
@@ -140,6 +140,7 @@ pub(super) fn equatorial() -> Vec<Published> {
         term(kind, "MA", "polar axis off in azimuth", "-cos(h)*sin(d)", "sin(h)"),
         term(kind, "ME", "polar axis off in elevation", "sin(h)*sin(d)", "cos(h)"),
         term(kind, "TF", "flexure of the tube", "cos(latitude)*sin(h)", fall),
+        term(kind, "TX", "flexure or refraction as the tangent of the zenith distance", across_tx, &along_tx),
         term(kind, "FO", "flexure of the fork", "", "cos(h)"),
         reversed(term(kind, "DAF", "flexure of the declination axis", sink, "")),
         reversed(term(kind, "HCES", "centring of the hour circle, sine", "sin(h)*cos(d)", "")),

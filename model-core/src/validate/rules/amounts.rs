@@ -70,7 +70,7 @@ fn no_angle(subject: &Subject<'_>, id: SymbolId, place: Span) -> Mistake<Span> {
             Mistake::new(place, format!("`{name}` is no angle, and stands inside a sine or cosine"))
                 .with_help(format!("declare it as an angle: `const {name}: angle = …;`"))
         }
-        SymbolKind::Pi | SymbolKind::Input | SymbolKind::Ramp => {
+        SymbolKind::Pi | SymbolKind::Input | SymbolKind::Ramp | SymbolKind::SightAngle => {
             Mistake::new(place, format!("`{name}` is no angle, and stands inside a sine or cosine"))
                 .with_help(format!("declare it as an angle: `input {name}: angle;`"))
         }
@@ -100,6 +100,9 @@ pub fn position_is_constant(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Sp
                 }
                 SymbolKind::Input => {
                     ("input", "write factors with inputs in `position_error` or `motion_error`".to_owned())
+                }
+                SymbolKind::SightAngle => {
+                    ("angle of a line of sight", "write factors with it in `motion_error`".to_owned())
                 }
                 SymbolKind::Error => {
                     let quantity = match kind {
@@ -155,6 +158,13 @@ pub fn motion_is_linear(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>
         for (name, place) in amount.written.names() {
             match subject.scope.lookup(name).map(|entry| entry.kind) {
                 Some(SymbolKind::Joint) => is_moved = true,
+                Some(SymbolKind::SightAngle) => {
+                    has_input = true;
+                    let message = format!("the angle of a line of sight `{name}` stands in a motion");
+                    mistakes.push(
+                        Mistake::new(place, message).with_help("write factors with it in `motion_error`"),
+                    );
+                }
                 Some(SymbolKind::Input) => {
                     has_input = true;
                     mistakes.push(

@@ -8,6 +8,7 @@ mod observables;
 mod quantities;
 mod ramps;
 mod readings;
+mod sight;
 
 use proc_macro2::Span;
 
@@ -43,5 +44,7 @@ pub const RULES: &[(&str, Rule)] = &[
     ("an observable is seen in the frame of another body", readings::frame_exists),
     ("an observable is made of constants and inputs", observables::components_are_known),
     ("a direction has a length", observables::direction_is_not_zero),
+    ("an angle is between an observed direction and up", sight::angle_is_from_up),
+    ("what is bent up is a direction, by errors", sight::direction_is_bent_by_errors),
     ("gravity is declared once, as a direction", observables::gravity_is_a_direction),
 ];

@@ -42,12 +42,13 @@ pub fn components_are_known(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Sp
         let what = match amount.purpose {
             Purpose::Component(_) => "an observable",
             Purpose::Gravity => "the direction of gravity",
-            Purpose::Factor { .. } => continue,
+            Purpose::Factor { .. } | Purpose::Bend(_) => continue,
         };
         for (name, place) in amount.written.names() {
             let kind = match subject.scope.lookup(name).map(|entry| entry.kind) {
                 Some(SymbolKind::Joint) => "joint",
                 Some(SymbolKind::Error) => "error",
+                Some(SymbolKind::SightAngle) => "angle of a line of sight",
                 _ => continue,
             };
             mistakes.push(

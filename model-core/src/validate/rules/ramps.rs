@@ -61,6 +61,7 @@ fn threshold_is_fixed(subject: &Subject<'_>, threshold: &Expr<Span>, mistakes: &
             Some(SymbolKind::Joint) => "joint",
             Some(SymbolKind::Input) => "input",
             Some(SymbolKind::Error) => "error",
+            Some(SymbolKind::SightAngle) => "angle of a line of sight",
             Some(SymbolKind::Pi | SymbolKind::Constant | SymbolKind::Ramp) | None => continue,
         };
         is_fixed = false;

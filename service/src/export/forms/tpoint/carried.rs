@@ -44,7 +44,10 @@ pub fn carried(subject: &Subject, terms: &PointingTerms, form: &Form) -> Carried
     let chain = &subject.chain;
     let values = subject.without_errors();
     let moves = |id: SymbolId| {
-        matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input | SymbolKind::Ramp)
+        matches!(
+            chain.symbol(id).kind,
+            SymbolKind::Joint | SymbolKind::Input | SymbolKind::Ramp | SymbolKind::SightAngle
+        )
     };
     let mut functions = Functions::new();
     let mut sparse = |change: &[Poly; 2]| -> Vec<(usize, f64)> {

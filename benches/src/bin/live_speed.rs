@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let chain = Chain::from_text(&declaration)?;
     let all: Vec<ObservableId> =
         ["pointing", "position"].iter().filter_map(|name| chain.find_observable(name)).collect();
-    for (name, observables) in [("pointing", &all[..1]), ("pointing and position", &all)] {
+    for (name, observables) in [("pointing", &all[..1]), ("pointing and position", &all[..])] {
         println!("{name}");
         measure(here, &chain, &declaration, observables)?;
     }
@@ -79,7 +79,7 @@ fn measure(
             let printed = String::from_utf8(Command::new(program).output()?.stdout)?;
             for line in printed.lines() {
                 let (what, ns) = line.split_once(": ").ok_or("a line that says nothing")?;
-                let own = least.entry((what.to_owned(), language)).or_insert(f64::INFINITY);
+                let own = least.entry((what.to_owned(), *language)).or_insert(f64::INFINITY);
                 *own = own.min(ns.parse()?);
             }
         }

@@ -193,7 +193,10 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         calibrated,
         ..Unit::new(&chain, &source.text, &chosen, &forms)
     };
-    let name = arguments.out.file_stem().unwrap_or_default().to_string_lossy();
+    let name = match arguments.out.to_str() {
+        Some("-") => codegen::snake_case(&chain.name),
+        _ => arguments.out.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+    };
     let files = codegen::generate(&unit, arguments.language.into(), &name).map_err(Refusal::of)?;
     drop(waiting);
     if arguments.out == Path::new("-") && files.len() > 1 {

@@ -333,7 +333,9 @@ struct Matlab<'a> {
 impl Notation for Matlab<'_> {
     fn symbol(&self, id: SymbolId) -> String {
         match self.chain.symbol(id).kind {
-            SymbolKind::Ramp => unreachable!("a ramp is computed from its joint or input"),
+            SymbolKind::Ramp | SymbolKind::SightAngle => {
+                unreachable!("a ramp or an angle of sight is computed from what is read")
+            }
             SymbolKind::Error => format!("errors.{}", self.names.symbol(id)),
             SymbolKind::Joint | SymbolKind::Input => format!("q{}", id.index()),
             SymbolKind::Pi | SymbolKind::Constant => self.number(super::declared(self.chain, id)),

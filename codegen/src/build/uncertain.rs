@@ -77,10 +77,10 @@ fn factor(rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
             break;
         }
         let column: Vec<f64> = (0..count).map(|at| left[at][pivot] / largest.sqrt()).collect();
-        for a in 0..count {
-            for b in 0..count {
+        for (a, row) in left.iter_mut().enumerate() {
+            for (b, entry) in row.iter_mut().enumerate() {
                 let is_done = a == pivot || b == pivot;
-                left[a][b] = if is_done { 0.0 } else { left[a][b] - column[a] * column[b] };
+                *entry = if is_done { 0.0 } else { *entry - column[a] * column[b] };
             }
         }
         columns.push(column.iter().zip(&scale).map(|(part, scale)| part * scale).collect());
@@ -107,10 +107,10 @@ mod tests {
         for (rows, count) in [(whole, 3), (singular, 2), (sure, 1)] {
             let columns = factor(&rows);
             assert_eq!(columns.len(), count);
-            for a in 0..rows.len() {
-                for b in 0..rows.len() {
+            for (a, row) in rows.iter().enumerate() {
+                for (b, entry) in row.iter().enumerate() {
                     let scale = (rows[a][a] * rows[b][b]).sqrt();
-                    let wrong = (product(&columns, a, b) - rows[a][b]).abs();
+                    let wrong = (product(&columns, a, b) - entry).abs();
                     assert!(wrong <= 4.0 * f64::EPSILON * scale, "{a} {b}: {wrong} of {scale}");
                 }
             }

@@ -21,6 +21,7 @@ mod paper;
 mod report_files;
 mod set_up;
 mod sizes;
+mod solving;
 mod source;
 mod streaming;
 mod table_files;

@@ -190,7 +190,7 @@ mod tests {
     use super::*;
 
     fn read(si: Vec<f64>) -> Read {
-        Read { column: String::new(), unit: Some("rad"), si }
+        Read { column: String::new(), unit: Some("rad"), notation: None, si }
     }
 
     #[test]

@@ -5,11 +5,14 @@
 //! `templates`; what it makes of a table is a [`Draft`], and `study` writes it down.
 
 mod frame;
+pub mod links;
 mod look;
 mod observed;
+mod placed;
 pub mod robot;
 mod study;
 pub mod templates;
+mod turned;
 mod words;
 
 pub use look::Look;
@@ -23,6 +26,7 @@ use model_core::escape::message;
 use frame::Frame;
 use look::Read;
 use observed::Observed;
+use turned::Turned;
 
 /// Why nothing can be begun, in words that say what to mend.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -50,6 +54,8 @@ pub struct Draft {
     columns: Vec<(String, Read)>,
     /// What was observed.
     observed: Observed,
+    /// How the body was turned, by the observable of this name.
+    turned: Option<(&'static str, Turned)>,
     /// What is estimated, where that is more than every error.
     estimate: Vec<&'static str>,
     /// Where the fit starts: an error, and its value as the study writes it.
@@ -69,7 +75,9 @@ pub fn draft(
     template: Option<&'static Template>,
 ) -> Result<(&'static Template, Draft), NotBegun> {
     let template = template.map_or_else(|| choose(look), Ok)?;
-    Ok((template, (template.draft)(look).map_err(NotBegun::from)?))
+    let mut draft = (template.draft)(look).map_err(NotBegun::from)?;
+    draft.remarks.splice(0..0, look.remarks.iter().cloned());
+    Ok((template, draft))
 }
 
 /// Holds what was begun to what it is read with: the chain, the study, and every row of the data, which `open` gives. Says what is
@@ -107,9 +115,11 @@ fn choose(look: &Look) -> Result<&'static Template, NotBegun> {
             let offered =
                 if several.is_empty() { templates::TEMPLATES.iter().collect() } else { several.to_vec() };
             let lines = offered.iter().map(|one| format!("--template {:14} {}", one.name, one.looks_for));
+            // What the file lacks comes first.
+            let said = look.remarks.iter().cloned();
             Err(NotBegun {
                 why: format!("{}: {found}; say which, and name the columns as it looks for them:", look.file),
-                offered: lines.collect(),
+                offered: said.chain(lines).collect(),
             })
         }
     }

@@ -4,6 +4,8 @@ use model_core::Quantity;
 use model_core::unit::{Measures, Unit};
 use tables::formats::{Cells, ColumnName, DataError, Form, TableReader, Texts, Wanted, sexagesimal};
 
+use ::study::Notation;
+
 use crate::NotBegun;
 use crate::words::{self, Part, Side};
 
@@ -47,6 +49,8 @@ pub struct Read {
     pub column: String,
     /// The unit that the study says; none for a plain number.
     pub unit: Option<&'static str>,
+    /// How digits stand for its angles, where that is no unit.
+    pub notation: Option<Notation>,
     /// Its numbers in SI.
     pub si: Vec<f64>,
 }
@@ -65,6 +69,13 @@ impl Look {
         let header = reader.header().to_vec();
         let file = reader.source().to_owned();
         if header.iter().all(|name| number(&name.full).is_some()) {
+            if matches!(header.len(), 12 | 16) {
+                return Err(format!(
+                    "{file}: {} numbers a row are poses as matrices, and nothing says the readings of the joints there: write a header, with \
+                     the joints first, such as `q1 [rad],q2 [rad],t11,t12,t13,t14 [m],t21`",
+                    header.len()
+                ));
+            }
             return Err(format!(
                 "{file}: the first line holds numbers, and no names of columns: write a header above it, such as \
                  `azimuth [deg],elevation [deg],x,y,z`"
@@ -77,7 +88,10 @@ impl Look {
             return Err(DataError::NoRows { file }.to_string());
         }
         let mut columns = Vec::new();
-        for (name, cells) in header.into_iter().zip(chunk.columns) {
+        for (at, (name, cells)) in header.into_iter().zip(chunk.columns).enumerate() {
+            if reader.behind().contains(&at) {
+                continue;
+            }
             let Cells::Kept(kept) = cells else { unreachable!("kept columns were wanted") };
             let texts = kept.texts().map_err(told)?;
             columns.push(Column::new(name, &texts));
@@ -155,7 +169,7 @@ impl Look {
     /// # Errors
     /// A unit that is none, or of something else; hours that could be degrees.
     pub(crate) fn angles(&self, columns: &[&Column], remarks: &mut Vec<String>) -> Result<Vec<Read>, String> {
-        let bare = || columns.iter().filter(|column| column.unit.is_none());
+        let bare = || columns.iter().filter(|column| column.unit.is_none() && column.notation().is_none());
         let farthest = |column: &Column| column.values().iter().fold(0.0, |a: f64, b| a.max(b.abs()));
         let reach = bare().map(|column| farthest(column)).fold(0.0, f64::max);
         let likely = match reach {
@@ -166,6 +180,9 @@ impl Look {
         columns
             .iter()
             .map(|column| {
+                if let Some(notation) = column.notation() {
+                    return column.packed(notation, &self.file);
+                }
                 let unit = column.said(Quantity::Angle, &self.file)?.map_or_else(
                     || {
                         if column.part() == Some(Part::HourAngle) && farthest(column) <= 24.0 && likely != "rad" {
@@ -260,7 +277,7 @@ impl Column {
 
     /// It as plain numbers.
     pub fn plain(&self) -> Read {
-        Read { column: self.name.full.clone(), unit: None, si: self.values().to_vec() }
+        Read { column: self.name.full.clone(), unit: None, notation: None, si: self.values().to_vec() }
     }
 
     fn said(&self, quantity: Quantity, file: &str) -> Result<Option<Unit>, String> {
@@ -276,15 +293,46 @@ impl Column {
     }
 
     fn read(&self, unit: Unit, file: &str) -> Result<Read, String> {
-        let column = self.name.full.clone();
-        if let Some(row) = self.no_number {
-            return Err(format!(
-                "{file}: `{column}` has a cell that is no number in row {}: fill it in, or leave such rows out",
-                row + 1
-            ));
-        }
+        self.all_numbers(file)?;
         let si = self.values().iter().map(|number| number * unit.in_si()).collect();
-        Ok(Read { column, unit: Some(unit.name()), si })
+        Ok(Read { column: self.name.full.clone(), unit: Some(unit.name()), notation: None, si })
+    }
+
+    fn all_numbers(&self, file: &str) -> Result<(), String> {
+        let refused = |row: usize| {
+            format!(
+                "{file}: `{}` has a cell that is no number in row {}: fill it in, or leave such rows out",
+                self.name.full,
+                row + 1
+            )
+        };
+        self.no_number.map_or(Ok(()), |row| Err(refused(row)))
+    }
+
+    /// The notation that stands in brackets behind its name.
+    fn notation(&self) -> Option<Notation> {
+        let inside =
+            self.name.full.trim_end_matches([']', ')']).rsplit(['[', '(']).next()?.trim().to_lowercase();
+        match inside.as_str() {
+            "ddd.mmss" | "dd.mmss" | "d.mmss" => Some(Notation::Degrees),
+            "hhmmss" => Some(Notation::Hours),
+            _ => None,
+        }
+    }
+
+    fn packed(&self, notation: Notation, file: &str) -> Result<Read, String> {
+        self.all_numbers(file)?;
+        let unpack = |(row, number): (usize, &f64)| match notation.unpack(*number) {
+            (angle, true) => Ok(angle),
+            (_, false) => Err(format!(
+                "{file}: `{}` has {number} in row {}, whose minutes or seconds are not below 60: correct it, or write the unit of \
+                 decimal degrees, `[deg]`",
+                self.name.full,
+                row + 1
+            )),
+        };
+        let si = self.values().iter().enumerate().map(unpack).collect::<Result<_, _>>()?;
+        Ok(Read { column: self.name.full.clone(), unit: None, notation: Some(notation), si })
     }
 }
 

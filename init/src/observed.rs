@@ -70,6 +70,16 @@ impl Observed {
         <[Read; 3]>::try_from(read).map(Self::Point).map_err(|_| unreachable!("three columns were read"))
     }
 
+    /// A point in columns that are known.
+    ///
+    /// # Errors
+    /// A cell that is no number.
+    pub fn point_in(look: &Look, names: &[String; 3], remarks: &mut Vec<String>) -> Result<Self, String> {
+        let columns: Vec<&Column> = names.iter().filter_map(|name| look.named(&[name.as_str()])).collect();
+        let read = look.lengths(&columns, remarks)?;
+        <[Read; 3]>::try_from(read).map(Self::Point).map_err(|_| unreachable!("the columns are there"))
+    }
+
     /// The labels of targets, of which no column says where they are; none where no labels come again.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! The declaration of a robot out of its URDF, and a study of it where there are data.
+//! The declaration of a robot out of a description of it, and a study of it where there are data.
 //!
 //! Each joint of the way to the tip is a body. Its axis may be tilted and shifted across itself by errors: what a robot whose joints are out of
 //! place shows of each axis. A wrong zero of a joint is a tilt or a shift of the next axis. Links that do not move follow as they are.
@@ -13,12 +13,37 @@ use model_core::validate::is_name;
 use tables::urdf::{Joint, Motion, Robot, declared_name};
 
 use super::look::Look;
+use super::placed;
+use super::turned::Turned;
 use super::{Draft, NotBegun, Observed};
 
 /// An angle of a file is a quarter turn, or several, if it is within this: files write them to so many digits, rad.
 const QUARTER: f64 = 1e-9;
+/// A shift below this is what rounding leaves of none, m.
+const NONE_M: f64 = 1e-12;
 /// A part of an axis below this is none.
 const ALONG: f64 = 1e-9;
+
+/// What describes a robot.
+pub struct Description {
+    /// The robot.
+    pub robot: Robot,
+    /// What of it was read: `its URDF`.
+    pub what: &'static str,
+    /// Whether positions are measured in the frame of its root; else where that stands is estimated too.
+    pub is_seen_from_root: bool,
+    /// What was read and assumed beside its joints.
+    pub remarks: Vec<String>,
+}
+
+impl Description {
+    /// By a URDF.
+    #[must_use]
+    pub fn urdf(robot: Robot) -> Self {
+        let read = "origins, axes and limits are read; masses and inertia are not".to_owned();
+        Self { robot, what: "its URDF", is_seen_from_root: true, remarks: vec![read] }
+    }
+}
 
 /// What is written without data: the declaration and what to know of it.
 pub struct Described {
@@ -26,13 +51,21 @@ pub struct Described {
     pub chain: String,
     /// What was read and assumed.
     pub remarks: Vec<String>,
+    /// The link that is measured.
+    tip: String,
 }
 
 /// The declaration of a robot, to the link that is named or to the one behind the most joints that move.
 ///
 /// # Errors
 /// No such link, several that could be meant, or a joint of several degrees of freedom.
-pub fn described(robot: &Robot, tip: Option<&str>) -> Result<Described, NotBegun> {
+pub fn described(description: &Description, tip: Option<&str>) -> Result<Described, NotBegun> {
+    declared(description, tip, false)
+}
+
+/// The same, where how the tip is turned is measured too.
+fn declared(description: &Description, tip: Option<&str>, is_turned: bool) -> Result<Described, NotBegun> {
+    let robot = &description.robot;
     let tip = tip.map_or_else(|| farthest(robot), |tip| Ok(tip.to_owned()))?;
     let Some(path) = robot.path(&tip) else {
         let links = || robot.joints.iter().map(|joint| joint.child.as_str());
@@ -61,16 +94,22 @@ pub fn described(robot: &Robot, tip: Option<&str>) -> Result<Described, NotBegun
     if moving == 0 {
         return Err(format!("no joint on the way to `{tip}` moves: name another link with --tip").into());
     }
-    let remarks = vec![
-        format!(
-            "read from the URDF: {moving} joints that move, from `{}` to `{tip}`, with origins, axes and limits; masses and inertia are not read",
-            robot.root
-        ),
-        "assumed: each axis may be tilted and shifted across itself, and the point on the tip is not known; positions are measured in the frame \
-         of the root"
-            .to_owned(),
-    ];
-    Ok(Described { chain: chain(robot, &joints, &tip), remarks })
+    let mut remarks = vec![format!(
+        "read from {}: {moving} joints that move, from `{}` to `{tip}`",
+        description.what, robot.root
+    )];
+    remarks.extend(description.remarks.iter().cloned());
+    remarks.push(
+        if description.is_seen_from_root {
+            "assumed: each axis may be tilted and shifted across itself, and the point on the tip is not known; positions are measured in the \
+             frame of the root"
+        } else {
+            "assumed: each axis but the first may be tilted and shifted across itself; where the root stands in the frame of the measurement, \
+             and the point on the tip, are not known"
+        }
+        .to_owned(),
+    );
+    Ok(Described { chain: chain(description, &joints, &tip, is_turned), remarks, tip })
 }
 
 /// The link behind the most joints that move, the nearest of several on one way.
@@ -101,11 +140,26 @@ fn farthest(robot: &Robot) -> Result<String, NotBegun> {
 }
 
 /// The declaration.
-fn chain(robot: &Robot, joints: &[&Joint], tip: &str) -> String {
+fn chain(description: &Description, joints: &[&Joint], tip: &str, is_turned: bool) -> String {
+    let robot = &description.robot;
     let mut taken: BTreeSet<String> = joints.iter().map(|joint| declared_name(&joint.name)).collect();
     let mut constants = String::new();
     let mut bodies = String::new();
     let mut lower = "ground".to_owned();
+    if !description.is_seen_from_root {
+        let names = ["x", "y", "z", "rx", "ry", "rz"].map(|axis| free(&mut taken, &format!("base_{axis}")));
+        constants.push_str(
+            "    /// Where the root stands in the frame of the measurement: not known beforehand.\n",
+        );
+        for (at, name) in names.iter().enumerate() {
+            let _ = writeln!(constants, "    const {name}: {} = 0;", if at < 3 { "length" } else { "angle" });
+        }
+        let [x, y, z, rx, ry, rz] = names;
+        lower = free(&mut taken, "base_stand");
+        let place = format!("Tx({x}), Ty({y}), Tz({z}), Rx({rx}), Ry({ry}), Rz({rz})");
+        let _ = writeln!(bodies, "    body {lower} on ground {{\n        position: {place};\n    }}");
+    }
+    let mut is_placed = !description.is_seen_from_root;
     // Where an axis lies along none of its frame's, what turned the frame to it is turned back behind the joint.
     let mut back: Vec<String> = Vec::new();
     for joint in joints {
@@ -122,7 +176,7 @@ fn chain(robot: &Robot, joints: &[&Joint], tip: &str) -> String {
             Some(name)
         };
         let mut position = std::mem::take(&mut back);
-        let shifts = ["Tx", "Ty", "Tz"].iter().zip(joint.xyz).filter(|(_, size)| *size != 0.0);
+        let shifts = ["Tx", "Ty", "Tz"].iter().zip(joint.xyz).filter(|(_, size)| size.abs() > NONE_M);
         position.extend(shifts.map(|(along, size)| format!("{along}({size})")));
         let [roll, pitch, yaw] = joint.rpy;
         for (axis, what, value) in [("Rz", "yaw", yaw), ("Ry", "pitch", pitch), ("Rx", "roll", roll)] {
@@ -171,7 +225,10 @@ fn chain(robot: &Robot, joints: &[&Joint], tip: &str) -> String {
             for own_axis in &across {
                 errors.push(format!("R{own_axis}({})", free(&mut taken, &format!("{own}_tilt_{own_axis}"))));
             }
-            let _ = writeln!(bodies, "        position_error: {};", errors.join(", "));
+            // Where the first axis is, the place of the base says.
+            if !std::mem::take(&mut is_placed) {
+                let _ = writeln!(bodies, "        position_error: {};", errors.join(", "));
+            }
             let letter = if joint.motion == Motion::Turns { 'R' } else { 'T' };
             let _ = writeln!(bodies, "        motion: {letter}{axis}({sign}{own});");
         }
@@ -185,14 +242,31 @@ fn chain(robot: &Robot, joints: &[&Joint], tip: &str) -> String {
         lower = body;
     }
     let point = ["x", "y", "z"].map(|axis| free(&mut taken, &format!("point_{axis}")));
+    let mut turned = String::new();
+    if is_turned {
+        let angles = ["rx", "ry", "rz"].map(|axis| free(&mut taken, &format!("tool_{axis}")));
+        constants
+            .push_str("    /// How what is measured is turned against that link: not known beforehand.\n");
+        angles.iter().for_each(|name| {
+            let _ = writeln!(constants, "    const {name}: angle = 0;");
+        });
+        let [rx, ry, rz] = angles;
+        let body = free(&mut taken, "tool");
+        let _ = writeln!(
+            bodies,
+            "    body {body} on {lower} {{\n        position: Rx({rx}), Ry({ry}), Rz({rz});\n    }}"
+        );
+        turned = format!("    /// How it is turned.\n    observe turned: orientation of {body};\n");
+    }
     let places: String = point.iter().map(|name| format!("    const {name}: length = 0;\n")).collect();
     let name =
         Some(declared_name(&robot.name)).filter(|name| is_name(name)).unwrap_or_else(|| "Robot".to_owned());
     format!(
-        "/// The robot `{}`, as its URDF describes it, to the link `{}`.\nchain {name} {{\n    /// Where the measured point sits on that link: not \
-         known beforehand.\n{places}{constants}{bodies}    /// Where the measured point is, seen from the root of the robot.\n    observe \
-         reflector: point({}) of {lower};\n}}\n",
+        "/// The robot `{}`, as {} describes it, to the link `{}`.\nchain {name} {{\n    /// Where the measured point sits on that link: not \
+         known beforehand.\n{places}{constants}{bodies}    /// Where the measured point is.\n    observe \
+         reflector: point({}) of {lower};\n{turned}}}\n",
         comments::line(&robot.name),
+        description.what,
         comments::line(tip),
         point.join(", ")
     )
@@ -213,8 +287,12 @@ fn free(taken: &mut BTreeSet<String>, wanted: &str) -> String {
 ///
 /// # Errors
 /// As [`described`]; and a joint that has no column, or no column of what was measured.
-pub fn draft(robot: &Robot, tip: Option<&str>, look: &Look) -> Result<Draft, NotBegun> {
-    let Described { chain, mut remarks } = described(robot, tip)?;
+pub fn draft(description: &Description, tip: Option<&str>, look: &Look) -> Result<Draft, NotBegun> {
+    let robot = &description.robot;
+    let mut seen = Vec::new();
+    let turned = Turned::of(look, &mut seen)?;
+    let Described { chain, mut remarks, tip: declared_tip } = declared(description, tip, turned.is_some())?;
+    remarks.append(&mut seen);
     let mut columns = Vec::new();
     for joint in robot.joints.iter().filter(|joint| joint.motion != Motion::Fixed) {
         let name = declared_name(&joint.name);
@@ -235,15 +313,38 @@ pub fn draft(robot: &Robot, tip: Option<&str>, look: &Look) -> Result<Draft, Not
         };
         columns.extend(read.into_iter().map(|read| (name.clone(), read)));
     }
-    let observed = Observed::point(look, &mut remarks)?;
-    remarks.extend(look.remarks.iter().cloned());
+    let observed = match turned.as_ref().and_then(|turned| turned.place.as_ref()) {
+        Some(place) => Observed::point_in(look, place, &mut remarks)?,
+        None => Observed::point(look, &mut remarks)?,
+    };
+    if let Some(turned) = &turned {
+        remarks.push(format!(
+            "how the tip is turned is read as {}, and is calibrated with its place; `apply` corrects the place, and the orientation leaves as it came",
+            turned.what
+        ));
+    }
+    remarks.splice(0..0, look.remarks.iter().cloned());
+    let path: Vec<&Joint> =
+        robot.path(&declared_tip).unwrap_or_default().into_iter().map(|at| &robot.joints[at]).collect();
+    let start = match &observed {
+        Observed::Point(points) if !description.is_seen_from_root => placed::base(&path, &columns, points),
+        _ => Vec::new(),
+    };
+    let mut estimate = vec!["*", "point_*"];
+    estimate.extend((!description.is_seen_from_root).then_some("base_*"));
+    estimate.extend(turned.is_some().then_some("tool_*"));
     Ok(Draft {
         chain,
         observable: "reflector",
         columns,
         observed,
-        estimate: vec!["*", "point_*"],
-        start: Vec::new(),
+        turned: turned.map(|turned| ("turned", turned)),
+        estimate: if description.is_seen_from_root {
+            vec!["*", "point_*"]
+        } else {
+            vec!["*", "point_*", "base_*"]
+        },
+        start,
         inputs: Vec::new(),
         remarks,
     })

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use model_core::escape::comments;
+use tables::formats::Site;
 
 use super::look::Read;
 use super::words::Part;
@@ -12,7 +13,7 @@ use super::{Draft, Look, Observed};
 const GROUPS: usize = 12;
 
 /// The paths of a study's chain and data as the study names them, and the command that runs the study.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Names<'a> {
     /// The chain.
     pub chain: &'a str,
@@ -20,18 +21,26 @@ pub struct Names<'a> {
     pub data: &'a str,
     /// The command.
     pub command: &'a str,
+    /// Where the instrument stands, if that was said.
+    pub site: Option<Site>,
 }
 
 /// The study of a draft.
 #[must_use]
 pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
-    let Names { chain, data, command } = names;
+    let Names { chain, data, command, site } = names;
     let mut text = format!("# Begun by trueaxis init: {}\n", comments::line(command));
     for remark in &draft.remarks {
         let _ = writeln!(text, "# {}", comments::line(remark));
     }
     let _ = writeln!(text, "\nchain      = {}\nobservable = {}", quoted(chain), quoted(draft.observable));
     let _ = writeln!(text, "data       = {}", quoted(data));
+    if let Some(Site { latitude_deg, longitude_deg }) = site {
+        let _ = writeln!(
+            text,
+            "site       = {{ latitude = \"{latitude_deg} deg\", longitude = \"{longitude_deg} deg\" }}"
+        );
+    }
     if let Some(id) = named_rows(look) {
         let _ = writeln!(text, "id         = {}", quoted(&id));
     }
@@ -81,14 +90,33 @@ pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
         text.push_str("\n[search]\n");
         let _ = writeln!(text, "inputs = {}", list(draft.inputs.iter().map(String::as_str)));
     }
+    if let Some((observable, turned)) = &draft.turned {
+        let _ = writeln!(
+            text,
+            "\n# How it is turned stands in the same rows.\n[[also]]\nobservable = {}",
+            quoted(observable)
+        );
+        let _ = writeln!(text, "data = {}\n\n[also.columns]", quoted(data));
+        for (name, read) in &draft.columns {
+            let _ = writeln!(text, "{name:width$} = {}", column(read));
+        }
+        text.push_str("\n[also.observed]\nkind = \"orientation\"\n");
+        if let Some(euler) = turned.euler {
+            let _ = writeln!(text, "euler = {}", quoted(euler));
+        }
+        for (key, read) in &turned.columns {
+            let _ = writeln!(text, "{key} = {}", column(read));
+        }
+    }
     text
 }
 
 fn column(read: &Read) -> String {
     let name = quoted(&read.column);
-    match read.unit {
-        Some(unit) => format!("{{ column = {name}, unit = {} }}", quoted(unit)),
-        None => format!("{{ column = {name} }}"),
+    match (read.unit, read.notation) {
+        (Some(unit), _) => format!("{{ column = {name}, unit = {} }}", quoted(unit)),
+        (None, Some(notation)) => format!("{{ column = {name}, notation = {} }}", quoted(notation.name())),
+        (None, None) => format!("{{ column = {name} }}"),
     }
 }
 

@@ -1,6 +1,7 @@
 //! What the name of a column says: which part of an instrument it is of, and whether it is the truth or a reading.
 
 use observe::kinds::headers;
+pub use tables::formats::words;
 
 /// What a column is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,6 +88,10 @@ const ABOUT: &[&str] = &[
     "rate",
     "velocity",
     "speed",
+    "quat",
+    "quaternion",
+    "orientation",
+    "ori",
 ];
 const OFFSETS: &[&str] = &["offset", "error", "err", "residual", "delta", "diff", "difference", "correction"];
 
@@ -136,24 +141,6 @@ impl Known {
             Self::As(key) => headers(key),
         }
     }
-}
-
-/// The words of a name, in small letters: `trueAz_2` is `true`, `az`, `2`.
-pub fn words(name: &str) -> Vec<String> {
-    let mut words = vec![String::new()];
-    let mut before = ' ';
-    for letter in name.chars() {
-        let starts = letter.is_uppercase() && before.is_lowercase();
-        if (starts || !letter.is_alphanumeric()) && words.last().is_some_and(|word| !word.is_empty()) {
-            words.push(String::new());
-        }
-        if letter.is_alphanumeric() {
-            words.last_mut().iter_mut().for_each(|word| word.extend(letter.to_lowercase()));
-        }
-        before = letter;
-    }
-    words.retain(|word| !word.is_empty());
-    words
 }
 
 fn any(words: &[String], of: &[&str]) -> bool {

@@ -24,7 +24,12 @@ fn a_table_in_memory_becomes_a_declaration_and_a_study_that_read_it() {
     let look = look(&table).unwrap();
     let (template, draft) = draft(&look, None).unwrap();
     assert_eq!(template.name, "turntable");
-    let names = Names { chain: "a.chain", data: "table.csv", command: "trueaxis calibrate a.toml\n[fit]" };
+    let names = Names {
+        chain: "a.chain",
+        data: "table.csv",
+        command: "trueaxis calibrate a.toml\n[fit]",
+        site: None,
+    };
     let study = study(&draft, &look, names);
     assert!(study.starts_with("# Begun by trueaxis init: trueaxis calibrate a.toml [fit]\n"), "{study}");
     let doubts = hold(&draft, &study, &mut |name: &str| {

@@ -3,8 +3,10 @@
 use toml::Spanned;
 
 use super::mistakes::{Gathered, Outcome, mistake};
-use super::written::Study;
-use tables::formats::Options;
+use super::written::{Site as WrittenSite, Study};
+use model_core::Quantity;
+use tables::formats::{Options, Site};
+use tables::units;
 
 impl Study {
     /// How the data files are read.
@@ -30,12 +32,34 @@ impl Study {
                 mistake(written.span(), "this is no amount of memory", "write memory = \"8 GiB\"")
             })),
         };
+        let site = mistakes.take(self.site.as_ref().map(site).transpose());
         mistakes.none()?;
-        let (Some(separator), Some(comment), Some(memory_bytes)) = (separator, comment, memory_bytes) else {
+        let (Some(separator), Some(comment), Some(memory_bytes), Some(site)) =
+            (separator, comment, memory_bytes, site)
+        else {
             unreachable!("what is missing comes with a mistake")
         };
-        Ok(Options { separator, comment, memory_bytes })
+        Ok(Options { separator, comment, memory_bytes, site })
     }
+}
+
+/// Where the instrument stands.
+fn site(written: &WrittenSite) -> Outcome<Site> {
+    let angle = |text: &Spanned<String>, most_deg: f64| {
+        let degrees = units::parse(text.get_ref(), Quantity::Angle).map(f64::to_degrees);
+        match degrees {
+            Ok(degrees) if degrees.abs() <= most_deg => Ok(degrees),
+            Ok(degrees) => {
+                let help = format!("write an angle from -{most_deg} deg to {most_deg} deg");
+                Err(mistake(text.span(), format!("{degrees:.3} deg is no such angle"), help))
+            }
+            Err(error) => Err(mistake(text.span(), error.to_string(), "write an angle, as \"48.5 deg\"")),
+        }
+    };
+    Ok(Site {
+        latitude_deg: angle(&written.latitude, 90.0)?,
+        longitude_deg: angle(&written.longitude, 360.0)?,
+    })
 }
 
 /// `8 GiB` or `500 MiB`, in bytes.

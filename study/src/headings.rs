@@ -1,16 +1,17 @@
 //! Files to come with the headings of a study: what their columns mean, and how what is observed is written there.
 
 use model_core::{Chain, Mistakes, SymbolId};
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 
 use super::column_plan::{ColumnAt, ColumnPlan};
+use super::conversion::Conversion;
 use super::mistakes::{Gathered, Outcome, Several, every, mistake};
 use super::order::{order_of, times};
 use super::plan::{Reading, SourcePlan};
 use super::shown;
 use super::written::Study;
-use observe::spherical_of_direction;
-use observe::{Derived, kinds::Filled};
+use observe::kinds::{Cells, Filled};
+use observe::{Derived, direction_from_spherical, spherical_of_direction};
 use tables::formats::{ColumnName, DataError, Options};
 
 /// What the columns of a study's files mean, whatever the study asks for.
@@ -66,7 +67,7 @@ pub struct ObservedColumn<'h> {
     /// The size of the unit that the study states, in SI, and its name.
     pub unit: Option<(f64, &'static str)>,
     /// How its numbers become readings.
-    pub conversion: super::Conversion,
+    pub conversion: Conversion,
 }
 
 impl Study {
@@ -155,6 +156,35 @@ impl Headings {
         self.column(source, symbol).map(|plan| plan.find(header, declared, file))
     }
 
+    /// Finds the columns of what is observed in a file of a source, in order.
+    ///
+    /// # Errors
+    /// One is not there, or there twice, or its unit is none or measures something else.
+    pub fn find_observed(
+        &self,
+        source: usize,
+        (header, file): (&[ColumnName], &str),
+        declared: &[&str],
+    ) -> Result<Vec<ColumnAt>, DataError> {
+        let plans = self.sources.get(source).map_or(&[][..], |source| &source.observed);
+        plans.iter().map(|plan| plan.find(header, declared, file)).collect()
+    }
+
+    /// The column of a joint or input as the study writes it: its name, the size of its unit, SI, with that unit's name, and how its numbers
+    /// become readings.
+    #[must_use]
+    pub fn written(
+        &self,
+        source: usize,
+        symbol: SymbolId,
+    ) -> Option<(&str, (f64, &'static str), Conversion)> {
+        let plan = self.column(source, symbol)?;
+        let unit = plan.unit.or_else(|| ColumnName::parse(&plan.name).unit());
+        let unit = unit.filter(|unit| unit.measures() == plan.measures);
+        let unit = unit.map_or((1.0, plan.measures.quantity().unit()), |unit| (unit.in_si(), unit.name()));
+        Some((&plan.name, unit, plan.conversion))
+    }
+
     fn reading(&self, source: usize, symbol: SymbolId) -> Option<&Reading> {
         let readings = &self.sources.get(source)?.readings;
         readings.iter().find(|(id, _)| *id == symbol).map(|(_, reading)| reading)
@@ -186,6 +216,14 @@ impl SourcePlan {
         })
     }
 
+    /// The direction or point that the numbers of its observed columns say, SI; none where they say none by themselves.
+    #[must_use]
+    pub fn target(&self, numbers: &[f64]) -> Option<Vector3<f64>> {
+        self.way.filled.filter(|filled| !filled.beside_nominal)?;
+        let measured = (self.way.read)(&mut Given { numbers, source: self }).ok()?;
+        measured.vector().copied()
+    }
+
     /// The azimuth and the elevation (or what the observable counts for it) of a vector, rad.
     #[must_use]
     pub fn angles(&self, vector: &Vector3<f64>) -> [f64; 2] {
@@ -193,5 +231,32 @@ impl SourcePlan {
             Some(convention) => convention.angles(vector),
             None => spherical_of_direction(vector),
         }
+    }
+}
+
+/// What a row says that has nothing but what is observed.
+struct Given<'a> {
+    numbers: &'a [f64],
+    source: &'a SourcePlan,
+}
+
+impl Cells for Given<'_> {
+    fn at(&self, column: usize) -> f64 {
+        self.numbers.get(column).copied().unwrap_or(f64::NAN)
+    }
+
+    fn direction(&self, azimuth_rad: f64, second_rad: f64) -> (Vector3<f64>, f64) {
+        match &self.source.convention {
+            Some(convention) => convention.direction(azimuth_rad, second_rad),
+            None => (direction_from_spherical(azimuth_rad, second_rad), second_rad),
+        }
+    }
+
+    fn nominal(&mut self) -> Vector3<f64> {
+        Vector3::from_element(f64::NAN)
+    }
+
+    fn orientation(&mut self) -> Result<UnitQuaternion<f64>, String> {
+        Err("an orientation is no target".to_owned())
     }
 }

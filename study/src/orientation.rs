@@ -1,8 +1,8 @@
-//! How a table says how a body is turned: a small rotation from the design, a unit quaternion, a matrix, a rotation vector.
+//! How a table says how a body is turned: a small rotation from the design, a unit quaternion, a matrix, a rotation vector, three angles.
 
 use std::ops::Range;
 
-use model_core::Quantity;
+use model_core::{Axis, Quantity};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 use super::mistakes::{Outcome, mistake};
@@ -21,11 +21,13 @@ pub(super) enum Form {
     Quaternion,
     /// Row by row; its columns are the axes of the body.
     Matrix,
+    /// Three turns one after another, each about an axis as the turns before it have left it.
+    Euler([Axis; 3]),
 }
 
 /// What to write in `[observed]`, form by form.
 pub(super) const FORMS: &str = "a quaternion (`w`, `x`, `y`, `z`), a matrix (`r11`, `r12` to `r33`: first the row), a rotation vector \
-    (`rx`, `ry`, `rz`), or what `eval` writes (`rotation_x`, `rotation_y`, `rotation_z`)";
+    (`rx`, `ry`, `rz`), three angles (`e1`, `e2`, `e3` with `euler = \"zyx\"`), or what `eval` writes (`rotation_x`, `rotation_y`, `rotation_z`)";
 
 /// Keys with the columns that they name.
 type Keys<'a> = Vec<(&'static str, &'a Option<Column>)>;
@@ -38,13 +40,14 @@ impl Form {
             Self::Vector => &["rx", "ry", "rz"],
             Self::Quaternion => &["w", "x", "y", "z"],
             Self::Matrix => &["r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"],
+            Self::Euler(_) => &["e1", "e2", "e3"],
         }
     }
 
     /// What its numbers are.
     pub fn quantity(self) -> Quantity {
         match self {
-            Self::FromDesign | Self::Vector => Quantity::Angle,
+            Self::FromDesign | Self::Vector | Self::Euler(_) => Quantity::Angle,
             Self::Quaternion | Self::Matrix => Quantity::Number,
         }
     }
@@ -83,6 +86,18 @@ impl Form {
                 Ok(UnitQuaternion::from_quaternion(quaternion))
             }
             Self::Matrix => of_matrix(&Matrix3::from_fn(|row, column| numbers(3 * row + column))),
+            Self::Euler(axes) => {
+                let turn = |at: usize| {
+                    let mut axis = Vector3::zeros();
+                    axis[axes[at].index()] = numbers(at);
+                    UnitQuaternion::new(axis)
+                };
+                let turned = turn(0) * turn(1) * turn(2);
+                let is_number = turned.coords.iter().all(|part| part.is_finite());
+                is_number
+                    .then_some(turned)
+                    .ok_or_else(|| "the three angles are too large to be some".to_owned())
+            }
         }
     }
 }
@@ -114,6 +129,36 @@ fn of_matrix(matrix: &Matrix3<f64>) -> Result<UnitQuaternion<f64>, String> {
     Ok(of_axes(&nearest))
 }
 
+/// The axes of three angles; any where the study has none.
+fn axes(observed: &Observed, place: &Range<usize>) -> Outcome<[Axis; 3]> {
+    let named = ["e1", "e2", "e3"].iter().any(|key| observed.names(key));
+    let Some(written) = &observed.euler else {
+        if named {
+            let message = "nothing says about which axes these angles turn";
+            return Err(mistake(
+                place.clone(),
+                message,
+                "write `euler = \"zyx\"`: first about z, then about the new y, then about the new x",
+            ));
+        }
+        return Ok([Axis::Z, Axis::Y, Axis::X]);
+    };
+    let axis = |letter: char| match letter.to_ascii_lowercase() {
+        'x' => Some(Axis::X),
+        'y' => Some(Axis::Y),
+        'z' => Some(Axis::Z),
+        _ => None,
+    };
+    let axes: Option<Vec<Axis>> = written.get_ref().chars().map(axis).collect();
+    match axes.as_deref() {
+        Some(&[first, second, third]) if first != second && second != third => Ok([first, second, third]),
+        _ => {
+            let message = format!("`{}` are no three axes of which none follows itself", written.get_ref());
+            Err(mistake(written.span(), message, "write `euler = \"zyx\"` or another order of x, y and z"))
+        }
+    }
+}
+
 /// The form that the keys of `[observed]` say, and its columns in order.
 pub(super) fn form<'a>(observed: &'a Observed, place: &Range<usize>) -> Outcome<(Form, Keys<'a>)> {
     let all = observed.columns();
@@ -121,7 +166,8 @@ pub(super) fn form<'a>(observed: &'a Observed, place: &Range<usize>) -> Outcome<
         let column = |key: &&str| all.iter().copied().find(|(known, _)| known == key);
         (form, form.keys().iter().filter_map(column).collect())
     };
-    let forms = [Form::FromDesign, Form::Vector, Form::Quaternion, Form::Matrix];
+    let forms =
+        [Form::FromDesign, Form::Vector, Form::Quaternion, Form::Matrix, Form::Euler(axes(observed, place)?)];
     let is_named = |(_, keys): &(Form, Keys<'_>)| keys.iter().any(|(_, column)| column.is_some());
     let mut named = forms.map(of).into_iter().filter(is_named);
     match (named.next(), named.next()) {
@@ -162,6 +208,10 @@ mod tests {
             // Written with three digits.
             (Form::Quaternion, vec![0.707, 0.0, 0.0, 0.707]),
             (Form::Matrix, vec![0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]),
+            (Form::Euler([Axis::Z, Axis::Y, Axis::X]), vec![quarter.z, 0.0, 0.0]),
+            (Form::Euler([Axis::Z, Axis::X, Axis::Z]), vec![quarter.z / 2.0, 0.0, quarter.z / 2.0]),
+            // About y by a quarter, about the new x, which looks down, and back.
+            (Form::Euler([Axis::Y, Axis::X, Axis::Y]), vec![quarter.z, -quarter.z, -quarter.z]),
         ] {
             assert_relative_eq!(read(form, &numbers).expect("an orientation"), quarter, epsilon = 1e-12);
         }

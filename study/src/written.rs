@@ -34,6 +34,8 @@ pub struct Study {
     pub comment: Option<Spanned<char>>,
     /// How much memory the rows may take: `8 GiB`.
     pub memory: Option<Spanned<String>>,
+    /// Where the instrument stands, for files that give a time and no place.
+    pub(super) site: Option<Site>,
     /// Which column is which joint or input.
     #[serde(default)]
     pub(super) columns: Table<Column>,
@@ -194,6 +196,11 @@ pub(super) struct Observed {
     pub r31: Option<Column>,
     pub r32: Option<Column>,
     pub r33: Option<Column>,
+    /// About which axes three angles turn, one after another: `zyx`.
+    pub euler: Option<Spanned<String>>,
+    pub e1: Option<Column>,
+    pub e2: Option<Column>,
+    pub e3: Option<Column>,
 }
 
 impl Observed {
@@ -203,7 +210,7 @@ impl Observed {
     }
 
     /// Every column by its key.
-    pub(super) fn columns(&self) -> [(&'static str, &Option<Column>); 28] {
+    pub(super) fn columns(&self) -> [(&'static str, &Option<Column>); 31] {
         [
             ("x", &self.x),
             ("y", &self.y),
@@ -233,6 +240,9 @@ impl Observed {
             ("r31", &self.r31),
             ("r32", &self.r32),
             ("r33", &self.r33),
+            ("e1", &self.e1),
+            ("e2", &self.e2),
+            ("e3", &self.e3),
         ]
     }
 }
@@ -351,4 +361,12 @@ pub(super) struct NextTable {
     /// Between which coordinates.
     #[serde(default)]
     pub place: Table<[Amount; 2]>,
+}
+
+/// A place on the Earth: angles with their units, north and east positive.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Site {
+    pub latitude: Spanned<String>,
+    pub longitude: Spanned<String>,
 }

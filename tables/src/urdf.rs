@@ -19,6 +19,8 @@ pub struct Robot {
     pub joints: Vec<Joint>,
     /// The link that no joint leads to.
     pub root: String,
+    /// Where the origin of each joint stands in the text, if it came from one.
+    places: Vec<Places>,
 }
 
 /// A joint.
@@ -40,7 +42,6 @@ pub struct Joint {
     pub axis: [f64; 3],
     /// The smallest and the largest position, rad or m.
     pub limits: Option<[f64; 2]>,
-    places: Places,
 }
 
 /// How a joint moves.
@@ -88,9 +89,9 @@ impl Robot {
                 .with_help("name a file in URDF, which begins with <robot>"));
         }
         let elements = || root.children().filter(|node| node.is_element());
-        let mut joints: Vec<Joint> = Vec::new();
+        let (mut joints, mut places): (Vec<Joint>, Vec<Places>) = (Vec::new(), Vec::new());
         for node in elements().filter(|node| node.has_tag_name("joint")) {
-            let joint = joint(text, node)?;
+            let (joint, place) = joint(text, node)?;
             let again = |own: &&Joint| own.name == joint.name || own.child == joint.child;
             if let Some(other) = joints.iter().find(again) {
                 let message = if other.name == joint.name {
@@ -106,6 +107,7 @@ impl Robot {
                 );
             }
             joints.push(joint);
+            places.push(place);
         }
         let whole = || start(root);
         if joints.is_empty() {
@@ -125,12 +127,30 @@ impl Robot {
             return Err(Mistake::new(whole(), message).with_help("a robot is one tree: join them"));
         }
         let name = root.attribute("name").unwrap_or("robot").to_owned();
-        let robot = Self { name, joints, root: first };
+        let robot = Self { name, joints, root: first, places };
         if let Some(joint) = robot.joints.iter().find(|joint| robot.path(&joint.child).is_none()) {
             let message = format!("joint `{}` hangs on itself", joint.name);
             return Err(Mistake::new(whole(), message).with_help("a robot is a tree: one link carries all"));
         }
         Ok(robot)
+    }
+
+    /// A robot that is one chain, out of its joints from the root on: each with its name, how it moves about or along z, its shift, m, and its
+    /// roll, pitch and yaw, rad, behind the joint before.
+    #[must_use]
+    pub fn in_line(
+        name: &str,
+        joints: impl IntoIterator<Item = (String, Motion, [f64; 3], [f64; 3])>,
+    ) -> Self {
+        let root = "base".to_owned();
+        let mut parent = root.clone();
+        let joint = |(name, motion, xyz, rpy): (String, Motion, [f64; 3], [f64; 3])| {
+            let child = format!("{name}_carried");
+            let parent = std::mem::replace(&mut parent, child.clone());
+            Joint { name, motion, parent, child, xyz, rpy, axis: [0.0, 0.0, 1.0], limits: None }
+        };
+        let joints = joints.into_iter().map(joint).collect();
+        Self { name: name.to_owned(), joints, root, places: Vec::new() }
     }
 
     /// The joints from the root to a link, by their places; `None` if no way leads there.
@@ -154,7 +174,7 @@ impl Robot {
     pub fn with_origins(&self, text: &str, origins: &[(usize, [f64; 3], [f64; 3])]) -> String {
         let mut edits: Vec<(Range<usize>, String)> = Vec::new();
         for (joint, xyz, rpy) in origins {
-            let places = &self.joints[*joint].places;
+            let Some(places) = self.places.get(*joint) else { continue };
             let numbers = |numbers: &[f64; 3]| numbers.map(|number| number.to_string()).join(" ");
             let mut missing = String::new();
             for (name, place, value) in [("xyz", &places.xyz, xyz), ("rpy", &places.rpy, rpy)] {
@@ -191,7 +211,7 @@ pub fn declared_name(name: &str) -> String {
 }
 
 /// A joint.
-fn joint(text: &str, node: Node<'_, '_>) -> Result<Joint, Mistake<Range<usize>>> {
+fn joint(text: &str, node: Node<'_, '_>) -> Result<(Joint, Places), Mistake<Range<usize>>> {
     let wrong = |message: String, help: &str| Mistake::new(start(node), message).with_help(help);
     let needed = |key: &str| {
         node.attribute(key)
@@ -251,7 +271,7 @@ fn joint(text: &str, node: Node<'_, '_>) -> Result<Joint, Mistake<Range<usize>>>
         has_origin: origin.is_some(),
     };
     let axis = if length < SHORTEST_AXIS { axis } else { axis.map(|part| part / length) };
-    Ok(Joint { name, motion, parent, child, xyz, rpy, axis, limits, places })
+    Ok((Joint { name, motion, parent, child, xyz, rpy, axis, limits }, places))
 }
 
 /// Three numbers of an attribute.

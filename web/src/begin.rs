@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use init::{Draft, Look, Names, templates};
+use init::robot::Description;
+use init::{Look, Names, templates};
 use serde_json::{Value, json};
 use service::Source;
 use tables::formats::{self, Cells, Form, Input, Options, Wanted};
@@ -22,17 +23,23 @@ pub fn begin(asked: &Message, tell: Tell<'_>, warn: &dyn Fn(String)) -> Answered
     let look = Look::at(&mut *open()?)?;
     let of_robot = asked.find("urdf").map(|_| asked.text("urdf")).transpose()?;
     let (template, what, draft) = match of_robot {
-        Some(text) => ("robot", "a robot as its URDF describes it", robot(asked, text, &look)?),
+        Some(text) => {
+            let robot = robot(text)?;
+            let tip = asked.find("tip").map(|_| asked.text("tip")).transpose()?;
+            let what = format!("a robot as {} describes it", robot.what);
+            ("robot", what, init::robot::draft(&robot, tip, &look)?)
+        }
         None => {
             let chosen = asked.find("template").map(|_| asked.text("template")).transpose()?;
             let (template, draft) = init::draft(&look, chosen.and_then(templates::named))?;
-            (template.name, template.what, draft)
+            (template.name, template.what.to_owned(), draft)
         }
     };
     let stem = Path::new(name).file_stem().map_or_else(|| name.into(), |stem| stem.to_string_lossy());
     let (chain_name, study_name) = (format!("{stem}.chain"), format!("{stem}.toml"));
     let command = format!("trueaxis calibrate {}", report::shell_word(&study_name));
-    let study = init::study(&draft, &look, Names { chain: &chain_name, data: name, command: &command });
+    let study =
+        init::study(&draft, &look, Names { chain: &chain_name, data: name, command: &command, site: None });
     init::hold(&draft, &study, &mut |_| Ok(Input::from(bytes.to_vec())))?.into_iter().for_each(warn);
     let answer = Message::default()
         .with("template", template)
@@ -46,11 +53,9 @@ pub fn begin(asked: &Message, tell: Tell<'_>, warn: &dyn Fn(String)) -> Answered
     Ok((true, answer))
 }
 
-fn robot(asked: &Message, text: &str, look: &Look) -> Result<Draft, Refused> {
+fn robot(text: &str) -> Result<Description, Refused> {
     let source = Source::of_text("the robot's URDF", text);
-    let robot = Robot::of(&source.text).map_err(|mistake| source.mistake(mistake))?;
-    let tip = asked.find("tip").map(|_| asked.text("tip")).transpose()?;
-    Ok(init::robot::draft(&robot, tip, look)?)
+    Ok(Description::urdf(Robot::of(&source.text).map_err(|mistake| source.mistake(mistake))?))
 }
 
 /// The first rows of a table, column by column.

@@ -2,12 +2,10 @@
 
 use std::path::PathBuf;
 
-use model_core::{Chain, ObservableId, Quantity as Measures, SymbolId, SymbolKind};
+use model_core::{Chain, Quantity as Measures};
 use service::Instrument;
-use service::apply::{self, AsMeasured, Beside, Correction, Outside, Place, Seen, Solver, numbers};
-use service::evaluation::{Evaluator, Exactness, Quantity, readings_of};
+use service::apply::{self, AsMeasured, Beside, Correction};
 use service::readings::ReadingsTable;
-use service::source::observables;
 use tables::units;
 
 use super::Answer;
@@ -19,8 +17,7 @@ use crate::output;
 #[cfg(feature = "point-clouds")]
 use crate::over_table::Model;
 use crate::over_table::{Opened, OverTable};
-use crate::{table_files, terminal};
-use model_core::names::listed;
+use crate::{solving, table_files, terminal};
 
 /// Correct new data with a calibrated model.
 ///
@@ -31,8 +28,9 @@ use model_core::names::listed;
 /// With a declaration and --errors it reads columns named like the chain's joints and inputs, and writes the corrected
 /// `<observable>_x`, `_y`, `_z`.
 ///
-/// With --solve it goes the other way: it reads where the instrument is to point, in columns `<observable>_x` and so on, and
-/// writes the readings of the joints that do so, with the angle or distance that remains. Columns of the joints in the input
+/// With --solve it goes the other way: it reads where the instrument is to point, under the headings that the study's data have for
+/// what was observed, or in columns `<observable>_x` and so on, and writes the readings of the joints that do so, in the columns and units
+/// of the study's data, with the angle or distance that remains. Columns of the joints in the input
 /// are where the search starts; without any it starts from the nearest of poses spread over the ranges that the model was
 /// found over.
 ///
@@ -107,9 +105,6 @@ fn distance(text: &str) -> Result<f64, String> {
     }
 }
 
-/// What remains of a target is rounding below this, in rad, or in m.
-const REACHED: f64 = 1e-9;
-
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     #[cfg(feature = "point-clouds")]
@@ -128,7 +123,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         )));
     }
     if arguments.solve {
-        solve(arguments)?
+        solving::solve(&arguments.table, arguments.form.map(apply::As::from), arguments.correction)?
     } else {
         correct(arguments)?
     }
@@ -207,96 +202,4 @@ fn no_instrument(arguments: &Arguments) -> Failure {
         "--uncertainty needs the covariance of an instrument file, and `{}` is a declaration: give the instrument file that `calibrate` writes",
         arguments.table.chain().display()
     ))
-}
-
-fn solve(arguments: &Arguments) -> Result<(), Failure> {
-    let Opened { chain, values, found, mut table, .. } = arguments.table.open()?;
-    let observable = match observables(&chain, &arguments.table.observable)?.as_slice() {
-        [one] => *one,
-        several => {
-            let names = listed(several.iter().map(|&id: &ObservableId| chain.observable(id).name.as_str()));
-            return Err(Failure::Input(format!("say which of {names} is wanted: --observable NAME")));
-        }
-    };
-    if !chain.observable(observable).is_vector() {
-        let name = &chain.observable(observable).name;
-        return Err(Failure::Input(format!(
-            "`{name}` shows single readings; joints are solved for a whole direction or point: name one with --observable"
-        )));
-    }
-    let seen = Seen::new(&chain, observable, arguments.form(), true)?;
-    let readings = readings_of(&chain, observable);
-    let joints: Vec<SymbolId> =
-        readings.into_iter().filter(|&id| chain.symbol(id).kind == SymbolKind::Joint).collect();
-    let has_starts = table.has(&chain, &joints);
-    let mut solver = Solver::new(&chain, observable, &values, &found, has_starts)?;
-    table.want(&chain, &solver.given)?;
-    for (name, quantity) in seen.read_names(&chain) {
-        table.want_other(&name, quantity)?;
-    }
-    // What the readings would be without the errors: the correction is the difference.
-    let mut without = values.clone();
-    chain.symbols_of(SymbolKind::Error).for_each(|error| without[error.index()] = 0.0);
-    let mut ideal =
-        arguments.correction.then(|| Solver::new(&chain, observable, &without, &found, true)).transpose()?;
-    let unit = |joint: SymbolId| chain.symbol(joint).quantity;
-    let name = |joint: SymbolId| &chain.symbol(joint).name;
-    // A reading beyond a turn would be doubted without its unit.
-    let with_unit = |name: &str, quantity: Measures| match quantity {
-        Measures::Number => name.to_owned(),
-        quantity => format!("{name} [{}]", quantity.unit()),
-    };
-    let mut added: Vec<String> =
-        solver.joints.iter().map(|&joint| with_unit(name(joint), unit(joint))).collect();
-    if arguments.correction {
-        added.extend(solver.joints.iter().map(|&joint| match unit(joint) {
-            Measures::Angle => format!("{}_correction [arcsec]", name(joint)),
-            other => with_unit(&format!("{}_correction", name(joint)), other),
-        }));
-    }
-    let quantity = model_core::budget::unit(&chain, observable);
-    added.push(format!("{}_remaining [{quantity}]", chain.observable(observable).name));
-    let mut outside = Outside::new(found.clone());
-    let checked = Evaluator::new(&chain, vec![observable], Exactness::Exact, Quantity::Value, &values);
-    let (mut missed, mut farthest, mut count) = (0, 0.0_f64, 0);
-    arguments.table.write(table, &added, Place::Behind, |rows| {
-        let columns: Vec<&[f64]> = rows.others.iter().map(Vec::as_slice).collect();
-        let wanted: Vec<[f64; 3]> = (0..rows.count).map(|row| seen.vector(&columns, row)).collect();
-        let solved = solver.solve(&rows.readings, &wanted)?;
-        let inputs = rows.readings.iter().filter(|(id, _)| !solver.joints.contains(id));
-        let set: Vec<(SymbolId, Vec<f64>)> =
-            inputs.cloned().chain(solver.joints.iter().copied().zip(solved.joints.clone())).collect();
-        let set_columns: Vec<(SymbolId, &[f64])> =
-            set.iter().map(|(id, column)| (*id, column.as_slice())).collect();
-        outside.see(&chain, &set_columns, &checked)?;
-        for remaining in &solved.remaining {
-            count += 1;
-            if *remaining > REACHED {
-                missed += 1;
-                farthest = farthest.max(*remaining);
-            }
-        }
-        let mut out = solved.joints.clone();
-        if let Some(ideal) = &mut ideal {
-            let nominal = ideal.solve(&set, &wanted)?;
-            for ((joint, set), nominal) in solver.joints.iter().zip(&solved.joints).zip(&nominal.joints) {
-                let scale =
-                    if unit(*joint) == Measures::Angle { 648_000.0 / std::f64::consts::PI } else { 1.0 };
-                out.push(set.iter().zip(nominal).map(|(set, nominal)| (set - nominal) * scale).collect());
-            }
-        }
-        out.push(solved.remaining);
-        Ok(numbers(out))
-    })?;
-    outside.warning(&chain).iter().for_each(terminal::warn);
-    if missed > 0 {
-        let far = match quantity {
-            "rad" => format!("{:.3e} arcsec", farthest * 648_000.0 / std::f64::consts::PI),
-            _ => format!("{farthest:.3e} m"),
-        };
-        terminal::warn(format_args!(
-            "{missed} of {count} targets are out of reach: up to {far} remain; the readings come nearest"
-        ));
-    }
-    Ok(())
 }

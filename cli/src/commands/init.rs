@@ -1,15 +1,18 @@
 //! `trueaxis init`: a chain and a study to start from, out of a table of data.
 
-use std::fs;
-use std::io;
+use std::fs::{self, File};
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-use init::Look;
+use init::robot::Description;
 use init::templates::{self, TEMPLATES};
+use init::{Look, links};
 use model_core::escape::line;
 use report::shell_word;
 use report::wrap::paragraph;
-use tables::formats::{self, DataError, Input, Options};
+use tables::dh::{self, Dh};
+use tables::formats::{self, DataError, Input, Options, Site};
+use tables::ur::{self, Deltas};
 use tables::urdf::Robot;
 
 use super::Answer;
@@ -22,36 +25,72 @@ use crate::{output, source, table_files, terminal};
 /// and NAME.toml, ready to run. What can be seen is not asked: which column is what, in which unit, which way angles
 /// run. Nothing is overwritten.
 ///
-/// With --urdf the declaration is made of a robot's URDF: its joints with origins, axes and limits. Columns of the data are named like the
-/// joints. Without data only the declaration is written.
+/// Files of other programs are known by what they begin with: observations of TPOINT, models of MountWizzard4, points of AutoSlew, plate
+/// solves, GSI of Leica. What was read and assumed is printed.
+///
+/// With --robot the declaration is made of a robot's description: its URDF, a table of Denavit and Hartenberg, or a calibration.conf of Universal
+/// Robots. Columns of the data are named like the joints. Without data only the declaration is written.
 ///
 /// Example: trueaxis init examples/course/secret.csv --out mount.toml
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// Measured data: a table with a header
-    #[arg(required_unless_present_any = ["list", "urdf"])]
+    /// Measured data, or a robot's description alone
+    #[arg(required_unless_present_any = ["list", "robot"])]
     data: Option<PathBuf>,
     /// The kind of instrument, where the header does not say it plainly
     #[arg(long, value_name = "NAME", value_parser = TEMPLATES.iter().map(|template| template.name).collect::<Vec<_>>())]
     template: Option<String>,
-    /// A robot's description in URDF: the declaration is made of it
-    #[arg(long, value_name = "R.urdf", conflicts_with = "template")]
-    urdf: Option<PathBuf>,
+    /// A robot's description: URDF, a table of Denavit and Hartenberg, or calibration.conf
+    #[arg(long, value_name = "FILE", visible_alias = "urdf", conflicts_with = "template")]
+    robot: Option<PathBuf>,
     /// The link of that robot that is measured; default: the one behind the most joints that move
-    #[arg(long, value_name = "LINK", requires = "urdf")]
+    #[arg(long, value_name = "LINK")]
     tip: Option<String>,
+    /// The arm that a calibration.conf is of, such as UR10e
+    #[arg(long, value_name = "NAME")]
+    arm: Option<String>,
+    /// Latitude of the site, degrees, for files that give times and no place
+    #[arg(long, value_name = "DEG", requires = "longitude", allow_negative_numbers = true, value_parser = latitude)]
+    latitude: Option<f64>,
+    /// Longitude of the site, degrees, east positive
+    #[arg(long, value_name = "DEG", requires = "latitude", allow_negative_numbers = true, value_parser = longitude)]
+    longitude: Option<f64>,
     /// The study to write, the chain beside it; default: named like the data, beside them
     #[arg(long, value_name = "STUDY.toml")]
     out: Option<PathBuf>,
     /// Only list the kinds of instruments, with the columns that each looks for
-    #[arg(long, conflicts_with_all = ["data", "template", "urdf", "out"])]
+    #[arg(long, conflicts_with_all = ["data", "template", "robot", "out"])]
     list: bool,
+}
+
+fn latitude(text: &str) -> Result<f64, String> {
+    degrees(text, 90.0)
+}
+
+fn longitude(text: &str) -> Result<f64, String> {
+    degrees(text, 360.0)
+}
+
+fn degrees(text: &str, most: f64) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| number.abs() <= most);
+    number.ok_or_else(|| format!("write degrees from -{most} to {most}, such as 48.5"))
+}
+
+impl Arguments {
+    /// Where the instrument stands.
+    fn site(&self) -> Option<Site> {
+        let (latitude_deg, longitude_deg) = (self.latitude?, self.longitude?);
+        Some(Site { latitude_deg, longitude_deg })
+    }
 }
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let robot = arguments.urdf.as_deref().map(robot).transpose()?;
-    if let (Some(robot), Some(file), None) = (&robot, &arguments.urdf, &arguments.data) {
+    let robot = match &arguments.robot {
+        Some(file) => Some(described(file, arguments.arm.as_deref())?.ok_or_else(|| no_robot(file))?),
+        None => None,
+    };
+    if let (Some(robot), Some(file), None) = (&robot, &arguments.robot, &arguments.data) {
         return describe(arguments, robot, file);
     }
     let Some(data) = arguments.data.as_ref().filter(|_| !arguments.list) else {
@@ -68,17 +107,22 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
             "name a file with the data: the study has to say where they are".to_owned(),
         ));
     }
-    let look = look(data)?;
+    if robot.is_none()
+        && let Some(robot) = described(data, arguments.arm.as_deref())?
+    {
+        return describe(arguments, &robot, data);
+    }
+    let look = look(data, arguments.site())?;
     let (name_of, what, draft) = match &robot {
         Some(robot) => (
             "robot",
-            "a robot as its URDF describes it",
+            format!("a robot as {} describes it", robot.what),
             init::robot::draft(robot, arguments.tip.as_deref(), &look)?,
         ),
         None => {
             let named = arguments.template.as_deref().and_then(templates::named);
             let (template, draft) = init::draft(&look, named)?;
-            (template.name, template.what, draft)
+            (template.name, template.what.to_owned(), draft)
         }
     };
     let study_file = arguments.out.clone().unwrap_or_else(|| data.with_extension("toml"));
@@ -96,6 +140,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         chain: &name(&chain_file)?,
         data: &beside(&study_file, data)?,
         command: &format!("trueaxis calibrate {}", shell_word(&text(&study_file)?)),
+        site: arguments.site(),
     };
     let study = init::study(&draft, &look, names);
     init::hold(&draft, &study, &mut |_| open(data))?.into_iter().for_each(terminal::warn);
@@ -117,14 +162,46 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     Ok(Answer::Done)
 }
 
-/// A robot's description.
-fn robot(file: &Path) -> Result<Robot, Failure> {
+/// How much of a file is looked at for a robot's description.
+const BEGINNING: u64 = 64 * 1024;
+
+/// The robot that a file describes; none of another file.
+fn described(file: &Path, arm: Option<&str>) -> Result<Option<Description>, Failure> {
+    let mut head = Vec::new();
+    // What cannot be read is said where it is read as data.
+    if File::open(file).and_then(|own| own.take(BEGINNING).read_to_end(&mut head)).is_err() {
+        return Ok(None);
+    }
+    let head = String::from_utf8_lossy(&head);
+    let is_xml = head.trim_start_matches('\u{feff}').trim_start().starts_with('<');
+    if !is_xml && !dh::looks(&head) && !ur::looks(&head) {
+        return Ok(None);
+    }
     let text = source::read(file)?;
-    Ok(Robot::of(&text.text).map_err(|mistake| text.mistake(mistake))?)
+    let named = file.file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    if is_xml {
+        let robot = Robot::of(&text.text).map_err(|mistake| text.mistake(mistake))?;
+        return Ok(Some(Description::urdf(robot)));
+    }
+    let shown = file.display().to_string();
+    if dh::looks(&text.text) {
+        let table = Dh::of(&text.text, &shown).map_err(table_files::failure)?;
+        return Ok(Some(links::dh(&named, &table)));
+    }
+    let deltas = Deltas::of(&text.text).map_err(|error| Failure::Input(format!("{shown}: {error}")))?;
+    Ok(Some(links::ur(&named, &deltas, arm)?))
+}
+
+/// Where a file was named as a robot's description and is none.
+fn no_robot(file: &Path) -> Failure {
+    Failure::Input(format!(
+        "`{}` describes no robot: name a URDF, a table with theta, d, a and alpha, or a calibration.conf with [mounting]",
+        file.display()
+    ))
 }
 
 /// Writes the declaration of a robot alone.
-fn describe(arguments: &Arguments, robot: &Robot, file: &Path) -> Result<Answer, Failure> {
+fn describe(arguments: &Arguments, robot: &Description, file: &Path) -> Result<Answer, Failure> {
     let chain_file = arguments.out.as_deref().unwrap_or(file).with_extension("chain");
     not_there([&chain_file])?;
     let described = init::robot::described(robot, arguments.tip.as_deref())?;
@@ -132,8 +209,14 @@ fn describe(arguments: &Arguments, robot: &Robot, file: &Path) -> Result<Answer,
     for remark in &described.remarks {
         terminal::note(format_args!("note: {remark}"));
     }
+    if arguments.robot.is_none() {
+        terminal::note(
+            "note: a description has no measured poses: with a table of them, give both, as in `trueaxis init poses.csv --robot` and this file",
+        );
+    }
     terminal::print_text(format!(
-        "robot: a robot as its URDF describes it\n  the declaration: {0}\nnext: trueaxis identify {1}\n",
+        "robot: a robot as {} describes it\n  the declaration: {}\nnext: trueaxis identify {}\n",
+        robot.what,
         line(&chain_file.to_string_lossy()),
         shell_word(&chain_file.display().to_string())
     ))?;
@@ -152,9 +235,10 @@ fn not_there<'p>(files: impl IntoIterator<Item = &'p PathBuf>) -> Result<(), Fai
 }
 
 /// The data as they are looked at.
-fn look(data: &Path) -> Result<Look, Failure> {
+fn look(data: &Path, site: Option<Site>) -> Result<Look, Failure> {
     let file = open(data).map_err(|error| Failure::Input(error.to_string()))?;
-    let mut reader = formats::open(file, &data.display().to_string(), &Options::default())
+    let options = Options { site, ..Options::default() };
+    let mut reader = formats::open(file, &data.display().to_string(), &options)
         .map_err(|error| Failure::Input(error.to_string()))?;
     Ok(Look::at(&mut *reader)?)
 }

@@ -7,6 +7,7 @@ mod dh;
 mod refused;
 mod tables;
 mod tpoint;
+mod ur;
 mod urdf;
 
 use support::Run;

@@ -23,6 +23,7 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("table", tabular::separated),
     ("observations", tabular::observations),
     ("begun", tabular::begun),
+    ("robot", tabular::robot),
     #[cfg(feature = "parquet")]
     ("parquet", tabular::parquet),
     ("errors", found::errors),

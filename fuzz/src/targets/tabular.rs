@@ -2,7 +2,9 @@
 
 use init::{Look, Names};
 use service::Refusal;
-use tables::formats::{self, ColumnName, Form, Kept, Options, TableReader, Wanted, write_row};
+use tables::dh::Dh;
+use tables::formats::{self, ColumnName, Form, Kept, Options, Site, TableReader, Wanted, write_row};
+use tables::ur::Deltas;
 
 use super::is_seen;
 
@@ -46,13 +48,36 @@ fn every_column(mut reader: Box<dyn TableReader + '_>, form: Form) {
     }
 }
 
-/// A file of telescope observations, with numbers wanted of every column.
+/// A file of observations in the form of another program, with numbers wanted of every column.
 pub fn observations(input: &[u8]) {
-    for file in ["f.dat", "f.csv"] {
-        match formats::open(input, file, &Options::default()) {
+    let site = Some(Site { latitude_deg: 48.0, longitude_deg: 11.0 });
+    for (file, site) in [("f.dat", None), ("f.csv", site)] {
+        match formats::open(input, file, &Options { site, ..Options::default() }) {
             Ok(reader) => every_column(reader, Form::Number(2.0)),
             Err(error) => is_seen(&Refusal::of(error).to_string()),
         }
+    }
+}
+
+/// What describes a robot: a table of links, or what is added to an arm.
+pub fn robot(input: &[u8]) {
+    let text = super::text(input);
+    let described = Dh::of(&text, "f.csv").map_err(|error| error.to_string()).and_then(|table| {
+        let described = init::robot::described(&init::links::dh("f", &table), None);
+        described.map_err(|refused| refused.to_string())
+    });
+    let described = described.or_else(|_| {
+        let deltas = Deltas::of(&text).map_err(|error| error.to_string())?;
+        let arm =
+            init::links::ur("f", &deltas, Some("UR5e")).and_then(|arm| init::robot::described(&arm, None));
+        arm.map_err(|refused| refused.to_string())
+    });
+    match described {
+        Ok(described) => {
+            let chain = model_core::Chain::from_text(&described.chain);
+            assert!(chain.is_ok(), "what was made of a description is read again: {}", described.chain);
+        }
+        Err(told) => is_seen(&told),
     }
 }
 
@@ -77,7 +102,7 @@ pub fn begun(input: &[u8]) {
     };
     for template in std::iter::once(None).chain(init::templates::TEMPLATES.iter().map(Some)) {
         let drafted = init::draft(&look, template).and_then(|(_, draft)| {
-            let names = Names { chain: "f.chain", data: "f.csv", command: "f" };
+            let names = Names { chain: "f.chain", data: "f.csv", command: "f", site: None };
             let study = init::study(&draft, &look, names);
             init::hold(&draft, &study, &mut |_: &str| Ok(input.to_vec().into()))
         });

@@ -1,12 +1,11 @@
 //! Arms of six joints, by positions of a reflector on the flange: which of the known arms it is, its rows show.
-//!
-//! Source of the sizes: Universal Robots, parameters for calculations of kinematics and dynamics.
 
 use std::fmt::Write as _;
 
 use fit::fit;
 use model_core::Chain;
 use study::Study;
+use tables::ur::{ARMS, Arm, JOINTS};
 
 use super::{Beside, Template};
 use crate::look::{Look, Read};
@@ -21,23 +20,10 @@ pub const TEMPLATE: Template = Template {
     draft,
 };
 
-/// Joints of the arms that are known.
-const JOINTS: usize = 6;
 /// Poses that an arm is recognised by, at most.
 const POSES: usize = 60;
 /// An arm is recognised where its nominal sizes leave less than this share of its reach.
 const RECOGNISED: f64 = 0.02;
-
-/// What an arm is called, and its sizes in m by Denavit and Hartenberg: d of each link, then a of the second and third.
-const ARMS: &[(&str, [f64; JOINTS], [f64; 2])] = &[
-    ("UR3", [0.1519, 0.0, 0.0, 0.112_35, 0.085_35, 0.0819], [-0.243_65, -0.213_25]),
-    ("UR5", [0.089_159, 0.0, 0.0, 0.109_15, 0.094_65, 0.0823], [-0.425, -0.392_25]),
-    ("UR10", [0.1273, 0.0, 0.0, 0.163_941, 0.1157, 0.0922], [-0.612, -0.5723]),
-    ("UR3e", [0.151_85, 0.0, 0.0, 0.131_05, 0.085_35, 0.0921], [-0.243_55, -0.2132]),
-    ("UR5e", [0.1625, 0.0, 0.0, 0.1333, 0.0997, 0.0996], [-0.425, -0.3922]),
-    ("UR10e", [0.1807, 0.0, 0.0, 0.174_15, 0.119_85, 0.116_55], [-0.6127, -0.571_55]),
-    ("UR16e", [0.1807, 0.0, 0.0, 0.174_15, 0.119_85, 0.116_55], [-0.4784, -0.36]),
-];
 
 /// The readings of joints 1, 2, …, as far as there are such columns.
 fn joints(look: &Look) -> Result<Vec<&crate::look::Column>, String> {
@@ -69,6 +55,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         observable: "reflector",
         columns: names.zip(joints).chain(beside.columns).collect(),
         observed,
+        turned: None,
         estimate: vec!["*", "base_*", "reflector_*"],
         start: Vec::new(),
         inputs: beside.names,
@@ -84,18 +71,17 @@ fn recognised(
 ) -> Result<(&'static str, String, f64), String> {
     let table = some_poses(joints, points);
     let mut best: Option<(&str, String, f64, f64)> = None;
-    for (name, d, a) in ARMS {
-        let chain = chain(name, d, *a);
-        let reach: f64 = d.iter().chain(a).map(|size| size.abs()).sum();
+    for arm in ARMS {
+        let chain = chain(arm);
         let left = left_m(&chain, &table)?;
-        if best.as_ref().is_none_or(|(.., least)| left / reach < *least) {
-            best = Some((name, chain, left, left / reach));
+        if best.as_ref().is_none_or(|(.., least)| left / arm.reach_m() < *least) {
+            best = Some((arm.name, chain, left, left / arm.reach_m()));
         }
     }
     match best {
         Some((name, chain, left, share)) if share < RECOGNISED => Ok((name, chain, left)),
         _ => {
-            let known: Vec<&str> = ARMS.iter().map(|(name, ..)| *name).collect();
+            let known: Vec<&str> = ARMS.iter().map(|arm| arm.name).collect();
             Err(format!(
                 "{}: the positions are not those of an arm that is known ({}); write the chain of this one by hand, after \
                  examples/ur10/ur10.chain",
@@ -134,7 +120,8 @@ fn left_m(chain: &str, table: &str) -> Result<f64, String> {
     Ok((squares / observations.rows() as f64).sqrt())
 }
 
-fn chain(name: &str, d: &[f64; JOINTS], [a2, a3]: [f64; 2]) -> String {
+fn chain(arm: &Arm) -> String {
+    let Arm { name, d, a: [a2, a3] } = arm;
     let twists = ["pi/2", "", "", "pi/2", "-pi/2", ""];
     let mut text = format!(
         "/// An arm of the sizes of a {name}, before something that measures positions.
@@ -162,7 +149,7 @@ STATEMENTS
     let mut lower = "base".to_owned();
     for (at, (d, twist)) in d.iter().zip(twists).enumerate() {
         let number = at + 1;
-        let a = [0.0, a2, a3, 0.0, 0.0, 0.0][at];
+        let a = [0.0, *a2, *a3, 0.0, 0.0, 0.0][at];
         let shifts = [(*d, "Tz"), (a, "Tx")].into_iter().filter(|(size, _)| *size != 0.0);
         let mut position: Vec<String> = shifts.map(|(size, along)| format!("{along}({size})")).collect();
         position.extend((!twist.is_empty()).then(|| format!("Rx({twist})")));

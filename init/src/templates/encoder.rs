@@ -41,6 +41,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         observable: "mark",
         columns: [("reading".to_owned(), joint)].into_iter().chain(beside.columns).collect(),
         observed: Observed::Azimuth(truth),
+        turned: None,
         estimate: Vec::new(),
         start: frame.starts(["index", ""]),
         inputs: beside.names,

@@ -35,7 +35,6 @@ fn draft(look: &Look) -> Result<Draft, String> {
         beside.columns.push(("pier".to_owned(), pier.plain()));
         beside.names.push("pier".to_owned());
     }
-    remarks.extend(look.remarks.iter().cloned());
     if pier.is_none() {
         remarks.push(
             "no column says the side of the pier: if the mount changed sides, add `pier_side` with 1 and -1"
@@ -55,6 +54,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         observable: "sight",
         columns: names.into_iter().zip(joints).chain(beside.columns).collect(),
         observed,
+        turned: None,
         estimate: Vec::new(),
         start,
         inputs: beside.names,

@@ -33,6 +33,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         observable: "sight",
         columns: names.into_iter().zip(joints).chain(beside.columns).collect(),
         observed,
+        turned: None,
         estimate: Vec::new(),
         start: frame.starts(["pan_index", "tilt_index"]),
         inputs: beside.names,

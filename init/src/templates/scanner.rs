@@ -46,6 +46,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         observable: "pointing",
         columns: names.into_iter().zip(joints).chain(beside.columns).collect(),
         observed,
+        turned: None,
         estimate: Vec::new(),
         start: Vec::new(),
         inputs: beside.names,

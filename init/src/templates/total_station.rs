@@ -65,6 +65,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         observable: "target",
         columns: names.into_iter().zip(columns).chain(beside.columns).collect(),
         observed,
+        turned: None,
         estimate,
         start: Vec::new(),
         inputs: beside.names,

@@ -39,6 +39,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         observable: "pointing",
         columns: ["angle".to_owned()].into_iter().zip(joints).chain(beside.columns).collect(),
         observed,
+        turned: None,
         estimate: Vec::new(),
         start: frame.starts(["index", "rise"]),
         inputs: beside.names,

@@ -68,6 +68,19 @@ impl AsMeasured {
         self.filled.beside_nominal
     }
 
+    /// The direction or point that columns as the study has them say, SI; none where they say none by themselves.
+    #[must_use]
+    pub fn target(&self, columns: &[&[f64]], row: usize) -> Option<[f64; 3]> {
+        let numbers: Vec<f64> = columns.iter().map(|column| column[row]).collect();
+        self.source.target(&numbers).map(Into::into)
+    }
+
+    /// Whether such columns say a direction or point by themselves.
+    #[must_use]
+    pub fn has_targets(&self) -> bool {
+        !self.filled.beside_nominal
+    }
+
     /// Headings of the columns that are written; with the correction if that is wanted.
     #[must_use]
     pub fn headers(&self, correction: bool) -> Vec<String> {

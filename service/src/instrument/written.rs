@@ -13,8 +13,19 @@ use super::file::VERSION;
 use crate::errors_file;
 
 /// Keys of a study that say what the columns of its data mean.
-const OF_COLUMNS: [&str; 10] =
-    ["chain", "observable", "data", "id", "separator", "comment", "memory", "columns", "observed", "also"];
+const OF_COLUMNS: [&str; 11] = [
+    "chain",
+    "observable",
+    "data",
+    "id",
+    "separator",
+    "comment",
+    "memory",
+    "site",
+    "columns",
+    "observed",
+    "also",
+];
 
 /// The same in tables of a study, by which inputs follow from other columns.
 const OF_INPUTS: [(&str, &[&str]); 2] = [("search", &["inputs", "sequence"]), ("noise", &["order"])];

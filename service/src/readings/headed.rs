@@ -62,6 +62,15 @@ impl Headed {
         found(&self.headings, self.source, need, header, declared)
     }
 
+    /// Finds the columns of what is observed.
+    pub fn find_observed(
+        &self,
+        header: (&[ColumnName], &str),
+        declared: &[&str],
+    ) -> Result<Vec<ColumnAt>, DataError> {
+        self.headings.find_observed(self.source, header, declared)
+    }
+
     /// The values of joints and inputs that follow from other columns.
     ///
     /// # Errors
@@ -124,4 +133,13 @@ fn found(
         Need::Reading(symbol) => headings.find(source, *symbol, (header, file), declared),
         Need::Numbers(name) | Need::Order(name) => Some(find_column(header, name, file).map(plain)),
     }
+}
+
+/// Readings, each taken from the row that stands so many before it; no number where there is no such row.
+pub(super) fn shifted(numbers: &[f64], shift: i64) -> Vec<f64> {
+    let from =
+        |row: usize| i64::try_from(row).ok()?.checked_sub(shift).and_then(|row| usize::try_from(row).ok());
+    (0..numbers.len())
+        .map(|row| from(row).and_then(|row| numbers.get(row)).copied().unwrap_or(f64::NAN))
+        .collect()
 }

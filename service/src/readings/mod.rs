@@ -13,7 +13,7 @@ use tables::formats::{
 };
 use tables::units::{BareColumn, Plausible};
 
-use headed::{Beside, Headed};
+use headed::{Beside, Headed, shifted};
 use observe::Derived;
 use study::{ColumnAt, Conversion, Headings, Need};
 
@@ -44,6 +44,8 @@ pub struct ReadingsTable<'t> {
     wanted: Vec<Wanted>,
     /// What each of them is for.
     uses: Vec<Use>,
+    /// Rows that take a reading from a row before or behind that the file does not have.
+    without_reading: usize,
     /// Whether a row has been read.
     started: bool,
     /// How far a file has been read; none of what is no regular file.
@@ -64,6 +66,8 @@ enum Use {
     Numbers(String),
     /// It says the order of the rows.
     Order,
+    /// What is observed, as a study writes it.
+    Observed(Conversion),
     /// Whoever asked for it.
     Other,
 }
@@ -113,6 +117,7 @@ impl<'t> ReadingsTable<'t> {
             asked: Vec::new(),
             wanted: Vec::new(),
             uses: Vec::new(),
+            without_reading: 0,
             started: false,
             extent: None,
             #[cfg(feature = "parquet")]
@@ -279,13 +284,6 @@ impl<'t> ReadingsTable<'t> {
             Need::Reading(symbol) => {
                 let declared = chain.symbol(symbol);
                 let source = self.reader.source();
-                if found.conversion.shift != 0 {
-                    return Err(Refusal::Input(format!(
-                        "{source}: the study takes each reading of `{}` from another row (`shift`): move the column in this file, and leave \
-                         `shift` out of the instrument file",
-                        declared.name
-                    )));
-                }
                 let name = &self.reader.header()[column].full;
                 let bare =
                     || BareColumn::new(Plausible::readings(chain, symbol), declared.quantity, name, source);
@@ -318,6 +316,30 @@ impl<'t> ReadingsTable<'t> {
         Ok(())
     }
 
+    /// Asks for the columns of what is observed as the study has them, after all readings.
+    ///
+    /// # Errors
+    /// As [`ReadingsTable::want`].
+    pub fn want_observed(&mut self) -> Result<(), Refusal> {
+        let (header, source) = (self.reader.header(), self.reader.source());
+        let Some(headed) = &self.headed else { return Ok(()) };
+        let found = headed.find_observed((header, source), &self.declared()).map_err(Refusal::of)?;
+        for column in found {
+            self.wanted.push(Wanted { column: column.at, form: Form::Number(column.factor) });
+            self.uses.push(Use::Observed(column.conversion));
+        }
+        Ok(())
+    }
+
+    /// Whether the columns of what is observed are there as the study has them.
+    #[must_use]
+    pub fn has_observed(&self) -> bool {
+        let (header, source) = (self.reader.header(), self.reader.source());
+        let found =
+            self.headed.as_ref().map(|headed| headed.find_observed((header, source), &self.declared()));
+        found.is_some_and(|found| found.is_ok_and(|found| !found.is_empty()))
+    }
+
     /// What to warn of where columns of the input are not in the output, since what was computed has their names. Where readings are
     /// solved for, those of the input were read as starts.
     #[must_use]
@@ -344,6 +366,9 @@ impl<'t> ReadingsTable<'t> {
         self.started = true;
         let mut rows = Rows { kept: Vec::new(), readings: Vec::new(), others: Vec::new(), count };
         let mut beside = Beside::default();
+        let shifts = || self.readings.iter().map(|reading| reading.conversion.shift);
+        let (forward, back) = (shifts().max().unwrap_or(0).max(0), shifts().min().unwrap_or(0).min(0));
+        self.without_reading += usize::try_from(forward - back).map_or(count, |rows| rows.min(count));
         for (column, own) in cells.into_iter().zip(&self.uses) {
             match (column, own) {
                 (Cells::Kept(kept), _) => rows.kept.push(kept),
@@ -354,9 +379,16 @@ impl<'t> ReadingsTable<'t> {
                     if reading.conversion != Conversion::NONE {
                         numbers.iter_mut().for_each(|number| *number = reading.conversion.value(*number));
                     }
+                    if reading.conversion.shift != 0 {
+                        numbers = shifted(&numbers, reading.conversion.shift);
+                    }
                     rows.readings.push((reading.symbol, numbers));
                 }
                 (Cells::Numbers(numbers), Use::Numbers(name)) => beside.numbers.push((name.clone(), numbers)),
+                (Cells::Numbers(mut numbers), Use::Observed(conversion)) => {
+                    numbers.iter_mut().for_each(|number| *number = conversion.value(*number));
+                    rows.others.push(numbers);
+                }
                 (Cells::Numbers(numbers), _) => rows.others.push(numbers),
             }
         }
@@ -384,7 +416,8 @@ impl<'t> ReadingsTable<'t> {
             let derived = self.headed.as_ref().and_then(|headed| headed.derived(*id));
             derived.is_some_and(Derived::follows_rows)
         };
-        let mut is_left = self.followed.iter().any(follows);
+        let mut is_left = self.followed.iter().any(follows)
+            || self.readings.iter().any(|reading| reading.conversion.shift != 0);
         let chunk = self.reader.read(&self.wanted, CHUNK).map_err(Refusal::of)?;
         if chunk.rows.is_empty() {
             return Ok(None);
@@ -399,6 +432,12 @@ impl<'t> ReadingsTable<'t> {
             }
         }
         Ok(Some((cells, count)))
+    }
+
+    /// How many rows take a reading from a row that the file does not have: what is computed of them is no number.
+    #[must_use]
+    pub fn without_reading(&self) -> usize {
+        self.without_reading
     }
 
     /// The columns whose numbers, as far as they were read, are hardly in SI, although nothing says another unit.

@@ -38,6 +38,7 @@ impl ReadingsTable<'_> {
             readings: readings.collect(),
             followed: Vec::new(),
             asked: Vec::new(),
+            without_reading: 0,
             started: false,
             extent,
             again: None,

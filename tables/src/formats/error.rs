@@ -53,6 +53,16 @@ pub enum DataError {
         /// Name of the file.
         file: String,
     },
+    /// It begins as files of two forms do.
+    #[error("{file}: this looks like {one} and like {other}: leave only the lines of one of them in it")]
+    TwoForms {
+        /// Name of the file.
+        file: String,
+        /// One form.
+        one: &'static str,
+        /// The other.
+        other: &'static str,
+    },
     /// Nothing in it.
     #[error("{file}: the file is empty: a header line with the names of the columns was expected")]
     Empty {

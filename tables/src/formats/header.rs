@@ -210,12 +210,15 @@ fn missing(header: &[ColumnName], name: &str, file: &str) -> DataError {
 }
 
 /// Refuses a header without a name, or in which a name stands twice. Columns without a name there may be several of, as nobody
-/// can ask for one.
+/// can ask for one, and numbers alone are no names: what they lack is said where columns are looked for.
 pub(super) fn unique(header: &[ColumnName], file: &str) -> Result<(), DataError> {
     let mut seen = std::collections::BTreeSet::new();
     let mut named = header.iter().filter(|column| !column.full.is_empty()).peekable();
     if named.peek().is_none() {
         return Err(DataError::NoNames { file: file.to_owned() });
+    }
+    if named.clone().all(|column| column.full.parse::<f64>().is_ok()) {
+        return Ok(());
     }
     match named.find(|column| !seen.insert(column.full.as_str())) {
         None => Ok(()),

@@ -1,37 +1,49 @@
 //! Formats of measured data: one file a format, all read as tables of named columns, chunk by chunk.
 //!
-//! | format | file | ending |
+//! | format | file | known by |
 //! |---|---|---|
-//! | separated values | [`csv`] | anything else |
-//! | TPOINT observations | [`tpoint`] | `.dat` |
-//! | columns in memory | [`memory`] | none: a program hands them over |
-//! | Parquet, with the feature of that name | `parquet` | `.parquet` |
+//! | separated values | [`csv`] | nothing else |
+//! | plate solves as separated values | `plate_solves` | right ascensions and declinations of both sides in the header |
+//! | TPOINT observations | `tpoint` | its options, or the ending `.dat` |
+//! | GSI of Leica | `gsi` | its words |
+//! | models of MountWizzard4 | `mountwizard` | JSON with its keys |
+//! | point files of AutoSlew, which plugins of NINA write | `pox` | a count, then `"Number 1"` |
+//! | columns in memory | [`memory`] | a program hands them over |
+//! | Parquet, with the feature of that name | `parquet` | the ending `.parquet` |
 //!
-//! Formats are parsed from an [`Input`]; opening files is the command's part.
+//! Formats are parsed from an [`Input`]; opening files is the command's part. `seen` decides which one a file has.
 
 pub mod csv;
 mod decimal;
 mod error;
+mod gsi;
 mod header;
+mod held;
 mod input;
 pub mod memory;
+mod mountwizard;
 mod number;
 mod options;
 mod packed;
 #[cfg(feature = "parquet")]
 pub mod parquet;
 pub mod part;
+mod plate_solves;
+mod pox;
 mod quote;
 mod records;
+mod seen;
 mod separator;
 mod sexagesimal;
 pub mod sha256;
+mod sights;
 mod texts;
-pub mod tpoint;
+mod tpoint;
+mod words;
 mod write;
 
 use std::borrow::Cow;
-use std::io::Read;
+use std::io::{self, Read};
 
 pub use decimal::numbers;
 pub use error::clipped;
@@ -42,7 +54,9 @@ pub use number::push_number;
 pub use options::Options;
 pub use quote::write_row;
 pub use sexagesimal::sexagesimal;
+pub use sights::Site;
 pub use texts::Texts;
+pub use words::words;
 pub use write::{Written, write_rows};
 
 /// One column of a chunk.
@@ -175,6 +189,11 @@ pub trait TableReader: Send {
         Vec::new()
     }
 
+    /// The columns from which the format itself has computed others: they say nothing that those do not.
+    fn behind(&self) -> &[usize] {
+        &[]
+    }
+
     /// The next rows, at most so many, and fewer where they are long; no rows at the end.
     ///
     /// # Errors
@@ -192,6 +211,19 @@ fn no_cells(wanted: &[Wanted]) -> Vec<Cells> {
     wanted.iter().map(empty).collect()
 }
 
+/// The form of another program's files, which are read whole.
+struct WholeFile {
+    /// What it is called in messages.
+    name: &'static str,
+    /// Whether a beginning is that of such a file.
+    looks: fn(&str) -> bool,
+    /// Reads the text of a file of this name.
+    read: fn(&str, &str, &Options) -> Result<held::Held, DataError>,
+}
+
+/// Every such form.
+const FORMS: &[WholeFile] = &[tpoint::FORM, gsi::FORM, mountwizard::FORM, pox::FORM];
+
 /// Reads the whole of a file whose format must be held in memory, within the budget.
 ///
 /// # Errors
@@ -206,7 +238,7 @@ fn whole(reader: impl Read, source: &str, options: &Options) -> Result<Vec<u8>, 
     Ok(bytes)
 }
 
-/// Opens a table by the ending of its name.
+/// Opens a table: a Parquet file by the ending of its name, anything else by what it begins with.
 ///
 /// # Errors
 /// The header cannot be read, or there is none.
@@ -218,20 +250,38 @@ pub fn open<'r>(
     let input = input.into();
     let ending = source.rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase());
     match ending.as_deref() {
-        Some("dat") => Ok(Box::new(tpoint::Reader::new(input.front_to_back(), source, options)?)),
         #[cfg(feature = "parquet")]
         Some("parquet") => Ok(Box::new(parquet::Reader::new(input, source, options)?)),
         #[cfg(not(feature = "parquet"))]
         Some("parquet") => Err(DataError::NoParquet { file: source.to_string() }),
-        _ => separated(input.front_to_back(), source, options),
+        _ => text(input.front_to_back(), source, options),
     }
 }
 
-/// Opens separated values. Not generic, so that what reads them is compiled with this crate and optimised as it is.
-fn separated<'r>(
-    reader: Box<dyn Read + Send + 'r>,
+/// Opens a text. Not generic, so that what reads it is compiled with this crate and optimised as it is.
+fn text<'r>(
+    mut reader: Box<dyn Read + Send + 'r>,
     source: &str,
     options: &Options,
 ) -> Result<Box<dyn TableReader + 'r>, DataError> {
-    Ok(Box::new(csv::Reader::new(reader, source, options)?))
+    let mut head = Vec::new();
+    reader
+        .by_ref()
+        .take(seen::PEEK)
+        .read_to_end(&mut head)
+        .map_err(|error| DataError::Unreadable { file: source.to_string(), why: error.to_string() })?;
+    let form = seen::form(&head, source)?;
+    let all = io::Cursor::new(head).chain(reader);
+    match form {
+        Some(form) => {
+            let bytes = whole(all, source, options)?;
+            let text = String::from_utf8_lossy(&bytes);
+            Ok(Box::new((form.read)(text.trim_start_matches('\u{feff}'), source, options)?))
+        }
+        None => {
+            let comments = seen::comments(all.get_ref().0.get_ref());
+            let table = csv::Reader::new(all, source, options)?;
+            plate_solves::seen(table, &comments, options)
+        }
+    }
 }

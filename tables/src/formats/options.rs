@@ -1,10 +1,10 @@
 //! What a study or a command line may say of data files: where seeing it from the header would fail, and how much memory their
 //! rows may take.
 
-use super::DataError;
+use super::{DataError, Site};
 
 /// What is said of data files.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
     /// The separator of separated values; seen from the header if `None`.
     pub separator: Option<u8>,
@@ -13,11 +13,13 @@ pub struct Options {
     pub comment: Option<u8>,
     /// How much memory what is held of one file may take, in bytes.
     pub memory_bytes: u64,
+    /// Where the instrument stands, for files that give a time and no place.
+    pub site: Option<Site>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { separator: None, comment: None, memory_bytes: 2 << 30 }
+        Self { separator: None, comment: None, memory_bytes: 2 << 30, site: None }
     }
 }
 

@@ -42,6 +42,10 @@ impl<R: DerefMut<Target: TableReader> + Send> TableReader for Stretches<R> {
         self.reader.latitude_deg()
     }
 
+    fn behind(&self) -> &[usize] {
+        self.reader.behind()
+    }
+
     fn remarks(&self) -> Vec<String> {
         self.reader.remarks()
     }
@@ -138,6 +142,10 @@ impl<R: DerefMut<Target: TableReader> + Send> TableReader for Within<'_, R> {
         self.reader.latitude_deg()
     }
 
+    fn behind(&self) -> &[usize] {
+        self.reader.behind()
+    }
+
     fn remarks(&self) -> Vec<String> {
         self.reader.remarks()
     }
@@ -186,7 +194,7 @@ mod tests {
         let expected: Vec<u64> = (3..6).chain(20..45).chain(99..100).collect();
         assert_eq!(values, expected.iter().map(|&row| row as f64).collect::<Vec<_>>());
         assert_eq!(numbers, expected.iter().map(|row| row + 1).collect::<Vec<_>>());
-        assert_eq!(rows_of(Stretches::new(table(10), 0, std::iter::once(20..30))).0, []);
+        assert_eq!(rows_of(Stretches::new(table(10), 0, std::iter::once(20..30))).0, [0.0; 0]);
         let mut reader = table(30);
         assert_eq!(rows_of(Stretches::new(&mut *reader, 0, std::iter::once(0..10))).0.len(), 10);
         assert_eq!(rows_of(Stretches::new(&mut *reader, 10, std::iter::once(10..40))).0.len(), 20);

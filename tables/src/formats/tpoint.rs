@@ -6,169 +6,116 @@
 //! | option | columns |
 //! |---|---|
 //! | `:EQUAT` | `true_ha_deg`, `true_dec_deg`, `encoder_ha_deg`, `encoder_dec_deg`, `pier_side` |
-//! | `:ALTAZ` | `true_az_deg`, `true_el_deg`, `encoder_az_deg`, `encoder_el_deg` |
+//! | `:ALTAZ` | `true_az_deg`, `true_el_deg`, `encoder_az_deg`, `encoder_el_deg`; right ascensions are turned into these |
 
 mod lines;
 
-use std::io::Read;
-
-use super::{Cell, Cells, Chunk, ColumnName, DataError, Form, Kept, Options, TableReader, Wanted};
+use super::held::Held;
+use super::{DataError, Options, WholeFile};
 use lines::{Mount, latitude_deg, record};
+
+pub(super) const FORM: WholeFile = WholeFile { name: "observations of TPOINT", looks, read };
 
 const EQUATORIAL: &[&str] =
     &["true_ha_deg", "true_dec_deg", "encoder_ha_deg", "encoder_dec_deg", "pier_side"];
 const ALT_AZIMUTH: &[&str] = &["true_az_deg", "true_el_deg", "encoder_az_deg", "encoder_el_deg"];
 
-/// A TPOINT file, read whole: such files have hundreds of lines.
-pub struct Reader {
-    source: String,
-    header: Vec<ColumnName>,
-    latitude_deg: Option<f64>,
-    /// Line and values of each record.
-    records: Vec<(u64, Vec<f64>)>,
-    next: usize,
+/// Options by which a file is known.
+///
+/// Source: P. T. Wallace, TPOINT, a telescope pointing analysis system (2011): `INDAT`.
+const OPTIONS: [&str; 4] = ["EQUAT", "ALTAZ", "NODA", "ALLSKY"];
+
+/// Whether one of the first lines below a caption is an option.
+fn looks(text: &str) -> bool {
+    let lines = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('!'));
+    let mut below = lines.skip(1).take(10).filter_map(|line| line.strip_prefix(':'));
+    below.any(|option| OPTIONS.iter().any(|known| option.trim().eq_ignore_ascii_case(known)))
 }
 
-impl Reader {
-    /// Reads the file.
-    ///
-    /// # Errors
-    /// A line that the format does not allow, with its number; an empty file.
-    pub fn new(reader: impl Read, source: &str, options: &Options) -> Result<Self, DataError> {
-        let file = || source.to_string();
-        let bytes = super::whole(reader, source, options)?;
-        // Captions may be in any code page; only they hold anything but ASCII.
-        let text = String::from_utf8_lossy(&bytes);
-        let lines = text.trim_start_matches('\u{feff}').lines();
-        let mut lines =
-            (1..).zip(lines.map(str::trim)).filter(|(_, line)| !line.is_empty() && !line.starts_with('!'));
-        let (first, caption) = lines.next().ok_or_else(|| DataError::Empty { file: file() })?;
-        let bad = |line: u64, why: String| DataError::BadLine { file: file(), line, why };
-        if caption.starts_with(':') {
-            return Err(bad(
-                first,
-                "the first line is the caption, and this is an option: write a caption above it".into(),
-            ));
-        }
-        // The line that says it, if one does.
-        let mut mount: Option<(Mount, Option<u64>)> = None;
-        let (mut site, mut records) = (None, Vec::new());
-        for (line, text) in lines {
-            if let Some(option) = text.strip_prefix(':') {
-                let Some(own) = Mount::of_option(option.trim()) else { continue };
-                match mount {
-                    Some((other, said)) if other != own => {
-                        let where_said = said.map_or_else(
-                            || "the records above are equatorial".to_owned(),
-                            |said| format!("line {said} says `:{}`", other.option()),
-                        );
-                        let why =
-                            format!("`:{}`, while {where_said}: write a file for each mount", own.option());
-                        return Err(bad(line, why));
-                    }
-                    Some(_) => {}
-                    None => mount = Some((own, Some(line))),
+/// Reads a file.
+///
+/// # Errors
+/// A line that the format does not allow, with its number; an empty file.
+fn read(text: &str, source: &str, _: &Options) -> Result<Held, DataError> {
+    let file = || source.to_string();
+    let mut lines =
+        (1..).zip(text.lines().map(str::trim)).filter(|(_, line)| !line.is_empty() && !line.starts_with('!'));
+    let (first, caption) = lines.next().ok_or_else(|| DataError::Empty { file: file() })?;
+    let bad = |line: u64, why: String| DataError::BadLine { file: file(), line, why };
+    if caption.starts_with(':') {
+        return Err(bad(
+            first,
+            "the first line is the caption, and this is an option: write a caption above it".into(),
+        ));
+    }
+    // The line that says it, if one does.
+    let mut mount: Option<(Mount, Option<u64>)> = None;
+    let (mut site, mut records) = (None, Vec::new());
+    for (line, text) in lines {
+        if let Some(option) = text.strip_prefix(':') {
+            let Some(own) = Mount::of_option(option.trim()) else { continue };
+            match mount {
+                Some((other, said)) if other != own => {
+                    let where_said = said.map_or_else(
+                        || "the records above are equatorial".to_owned(),
+                        |said| format!("line {said} says `:{}`", other.option()),
+                    );
+                    let why = format!("`:{}`, while {where_said}: write a file for each mount", own.option());
+                    return Err(bad(line, why));
                 }
-                continue;
+                Some(_) => {}
+                None => mount = Some((own, Some(line))),
             }
-            if text.eq_ignore_ascii_case("END") {
-                break;
-            }
-            let words: Vec<&str> = text.split_whitespace().collect();
-            if site.is_none() {
-                site = Some(latitude_deg(&words).map_err(|why| bad(line, why))?);
-                continue;
-            }
-            let (own, _) = *mount.get_or_insert((Mount::Equatorial, None));
-            records.push((line, record(own, &words).map_err(|why| bad(line, why))?));
+            continue;
         }
-        let names = match mount {
-            Some((Mount::AltAzimuth, _)) => ALT_AZIMUTH,
-            _ => EQUATORIAL,
+        if text.eq_ignore_ascii_case("END") {
+            break;
+        }
+        let words: Vec<&str> = text.split_whitespace().collect();
+        let Some(latitude) = site else {
+            site = Some(latitude_deg(&words).map_err(|why| bad(line, why))?);
+            continue;
         };
-        let header = names.iter().map(|name| ColumnName::parse(name)).collect();
-        Ok(Self { source: source.to_string(), header, latitude_deg: site, records, next: 0 })
+        let (own, _) = *mount.get_or_insert((Mount::Equatorial, None));
+        records.push((line, record(own, latitude, &words).map_err(|why| bad(line, why))?));
     }
-
-    /// Whether hour angles are on both sides of the meridian, and no declination is read through the pole: a mount that changes sides
-    /// there would have done so.
-    fn never_changes_sides(&self) -> bool {
-        let column = |at: usize| self.records.iter().filter_map(move |(_, values)| values.get(at).copied());
-        let is_equatorial = self.header.len() == EQUATORIAL.len();
-        is_equatorial
-            && column(4).all(|side| side > 0.0)
-            && column(2).any(|ha| ha < 0.0)
-            && column(2).any(|ha| ha > 0.0)
+    let names = match mount {
+        Some((Mount::AltAzimuth, _)) => ALT_AZIMUTH,
+        _ => EQUATORIAL,
+    };
+    let mut held = Held::new(source, names);
+    held.latitude_deg = site;
+    if names == EQUATORIAL && never_changes_sides(&records) {
+        held.remarks.push(format!(
+            "{source}: no row is on the far side of the pier, as no declination is read beyond the pole. If the mount changed sides at the \
+             meridian, give the rows as a table with a column for the side."
+        ));
     }
+    for (line, values) in records {
+        held.push(Some(line), values.iter().map(f64::to_string));
+    }
+    Ok(held)
 }
 
-impl TableReader for Reader {
-    fn source(&self) -> &str {
-        &self.source
-    }
-
-    fn header(&self) -> &[ColumnName] {
-        &self.header
-    }
-
-    fn latitude_deg(&self) -> Option<f64> {
-        self.latitude_deg
-    }
-
-    fn remarks(&self) -> Vec<String> {
-        let remark = || {
-            format!(
-                "{}: no row is on the far side of the pier, as no declination is read beyond the pole. If the mount changed sides at the \
-                 meridian, give the rows as a table with a column for the side.",
-                self.source
-            )
-        };
-        self.never_changes_sides().then(remark).into_iter().collect()
-    }
-
-    fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError> {
-        let end = self.next.saturating_add(at_most).min(self.records.len());
-        let start = std::mem::replace(&mut self.next, end);
-        let records = self.records.get(start..end).unwrap_or_default();
-        let column = |want: &Wanted| {
-            let values = records.iter().enumerate().map(|(at, (line, values))| {
-                let number = values.get(want.column).copied().unwrap_or(f64::NAN);
-                if number.is_finite() {
-                    return Ok(number);
-                }
-                let cell = Cell {
-                    file: self.source.clone(),
-                    line: Some(*line),
-                    row: (start + at + 1) as u64,
-                    column: self.header.get(want.column).map_or_else(String::new, |name| name.full.clone()),
-                };
-                Err(DataError::NotFinite { cell, text: number.to_string() })
-            });
-            let texts = |value: Result<f64, DataError>| value.map(|value| value.to_string());
-            match want.form {
-                Form::Number(factor) => values
-                    .map(|value| value.map(|value| value * factor))
-                    .collect::<Result<_, _>>()
-                    .map(Cells::Numbers),
-                Form::Label => values.map(texts).collect::<Result<_, _>>().map(Cells::Labels),
-                Form::Kept => {
-                    let texts = values.map(texts).collect::<Result<_, _>>();
-                    texts.map(|texts| Cells::Kept(Kept::Texts(texts)))
-                }
-            }
-        };
-        let columns = wanted.iter().map(column).collect::<Result<_, _>>()?;
-        let lines = records.iter().map(|(line, _)| *line).collect();
-        Ok(Chunk { columns, rows: (start + 1..=end).map(|row| row as u64).collect(), lines })
-    }
+/// Whether hour angles are on both sides of the meridian, and no declination is read through the pole: a mount that changes sides
+/// there would have done so.
+fn never_changes_sides(records: &[(u64, Vec<f64>)]) -> bool {
+    let column = |at: usize| records.iter().filter_map(move |(_, values)| values.get(at).copied());
+    column(4).all(|side| side > 0.0) && column(2).any(|ha| ha < 0.0) && column(2).any(|ha| ha > 0.0)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::formats::{Cells, Form, TableReader, Wanted, open};
+
+    use super::{DataError, Options};
+
+    fn opened(text: &str) -> Result<Box<dyn TableReader + '_>, DataError> {
+        open(text.as_bytes(), "run.dat", &Options::default())
+    }
 
     fn read(text: &str) -> Result<Vec<Vec<f64>>, DataError> {
-        let mut reader = Reader::new(text.as_bytes(), "run.dat", &Options::default())?;
+        let mut reader = opened(text)?;
         let wanted: Vec<Wanted> =
             (0..reader.header().len()).map(|column| Wanted { column, form: Form::Number(1.0) }).collect();
         let chunk = reader.read(&wanted, usize::MAX)?;
@@ -209,12 +156,35 @@ mod tests {
         assert_eq!(columns, Ok(vec![vec![10.5], vec![40.25], vec![10.51], vec![-40.26]]));
     }
 
+    /// A star on the meridian is as high as it is there; six hours later it is where the pole's height has it.
+    #[test]
+    fn right_ascensions_of_an_alt_azimuth_mount_become_azimuths_and_elevations() {
+        let columns = read(
+            "Caption\n: ALTAZ\n30 00 00 2026 01 10 1.63 629.68 4111.00 0.422 850.000\n\
+             06 00 00 +20 00 00 06 00 00 +20 00 00 06 0.00000 85.342 56.197 SCUBA 0.00\n\
+             00 00 00 +20 00 00 00 00 00 -20 00 00 06 00.0\n",
+        );
+        let columns = columns.unwrap_or_default();
+        let rise = (20f64.to_radians().sin() * 0.5).asin().to_degrees();
+        // tan A = cos δ / (sin δ cos φ), westwards of north.
+        let west =
+            360.0 - (20f64.to_radians().cos()).atan2(20f64.to_radians().sin() * 0.75f64.sqrt()).to_degrees();
+        let south =
+            360.0 - (20f64.to_radians().cos()).atan2(-20f64.to_radians().sin() * 0.75f64.sqrt()).to_degrees();
+        let expected = [[180.0, west], [80.0, rise], [180.0, south], [80.0, -rise]];
+        assert_eq!(columns.len(), 4);
+        for (column, expected) in columns.iter().zip(expected) {
+            for (value, expected) in column.iter().zip(expected) {
+                assert!((value - expected).abs() < 1e-9, "{columns:?}");
+            }
+        }
+    }
+
     #[test]
     fn the_site_is_kept_and_what_stands_behind_the_sidereal_time_is_not_read() {
         let text = "Caption\n:EQUAT\n-19 49 30.0 2009 01 29 -2.25 621.00 4120.00 0.827 866.963\n\
                     09 48 29.174 +13 14 02.63 09 48 35.756 +13 15 09.01 08 12.04958 4.760 108.775 HARPB 0.00\n";
-        let reader = Reader::new(text.as_bytes(), "run.dat", &Options::default());
-        assert_eq!(reader.map(|reader| reader.latitude_deg()), Ok(Some(-19.825)));
+        assert_eq!(opened(text).map(|reader| reader.latitude_deg()).ok(), Some(Some(-19.825)));
         assert!(read(text).is_ok());
     }
 
@@ -222,8 +192,7 @@ mod tests {
     fn a_side_of_the_pier_that_nothing_says_is_remarked_on() {
         let remarks = |records: &str| {
             let text = format!("Caption\n48 0 0\n{records}");
-            let reader = Reader::new(text.as_bytes(), "run.dat", &Options::default());
-            reader.map_or(0, |reader| reader.remarks().len())
+            opened(&text).map_or(0, |reader| reader.remarks().len())
         };
         let east = "08 00 00 +20 00 00 08 00 00 +20 00 00 06 00.0\n";
         let west = "04 00 00 +20 00 00 04 00 00 +20 00 00 06 00.0\n";
@@ -288,7 +257,7 @@ mod tests {
             // The sidereal time.
             (
                 equatorial("04 00 00 +20 30 00 04 00 04 +20 30 36"),
-                "line 5: a record of `:EQUAT` has 14 numbers",
+                "line 5: a record of right ascensions has 14 numbers",
             ),
             (
                 equatorial("04 00 00 +20 30 00 04 00 04 +20 30 36 06 36 12"),
@@ -298,13 +267,13 @@ mod tests {
             (equatorial("04 00 00 +20 30 00 04 00 04 +20 30 36 06 60.0"), "line 5: `60.0` minutes"),
             (equatorial("04 00 00 +20 30 00 04 00 04 +20 30 36 06 -1.0"), "line 5: `-1.0` minutes"),
             // Azimuth and elevation.
+            (alt_azimuth("04 00 00 +20 30 00 04 00 04 +20 30 36 06 60.0"), "line 4: `60.0` minutes"),
             (alt_azimuth("1 2 3"), "line 4: a record of `:ALTAZ` has 4 numbers"),
             (alt_azimuth("1 2 3 4 5"), "line 4: a record of `:ALTAZ` has 4 numbers"),
             (alt_azimuth("1 2 3 nan"), "line 4: `nan` is no number"),
             (alt_azimuth("1 95 3 4"), "line 4: the elevation is 95"),
             (alt_azimuth("1 2 400 4"), "line 4: the azimuth as read is 400"),
             (alt_azimuth("10 61 00 40 15 00 10 30 36 40 15 36"), "line 4: `61` minutes"),
-            (alt_azimuth(RECORD.trim()), "line 4: a record of `:ALTAZ` has 4 numbers"),
             // Both mounts.
             (
                 format!("Caption\n:EQUAT\n:ALTAZ\n{SITE}1 2 3 4\n"),
@@ -328,7 +297,7 @@ mod tests {
     proptest::proptest! {
         #[test]
         fn no_bytes_panic(bytes in proptest::collection::vec(proptest::num::u8::ANY, 0..200)) {
-            let _ = Reader::new(bytes.as_slice(), "run.dat", &Options::default());
+            let _ = open(bytes.as_slice(), "run.dat", &Options::default());
         }
 
         /// Written out and read back, angles are what they were, and rows with other words are refused.

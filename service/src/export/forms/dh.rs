@@ -6,7 +6,7 @@
 //! Source: J. Denavit and R. S. Hartenberg, J. Appl. Mech. 22 (1955) 215; S. A. Hayati, "Robot arm geometric link parameter estimation",
 //! 22nd IEEE Conference on Decision and Control (1983) 1477 (the link of nearly parallel axes).
 
-mod link;
+pub(super) mod link;
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

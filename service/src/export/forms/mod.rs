@@ -1,5 +1,6 @@
 //! The registry of forms that an instrument is written in: one file each, one line each in the table below.
 
+mod calibration_conf;
 mod dh;
 mod iso230;
 mod table;
@@ -26,4 +27,5 @@ pub struct Form {
 }
 
 /// Every form.
-pub const FORMS: &[Form] = &[tpoint::FORM, dh::FORM, urdf::FORM, table::FORM, iso230::FORM];
+pub const FORMS: &[Form] =
+    &[tpoint::FORM, dh::FORM, urdf::FORM, calibration_conf::FORM, table::FORM, iso230::FORM];

@@ -2,11 +2,12 @@
 //!
 //! The site is the latitude (d m s), the date (y m d) and the weather; all but the latitude may be left out. A record of an equatorial
 //! mount has right ascension and declination of the star, the same as the telescope read them, the local sidereal time in hours and
-//! minutes with decimals, and readings of other instruments behind that. One of an alt-azimuth mount has azimuth and elevation, true
-//! and as read, in degrees or in d m s.
+//! minutes with decimals, and readings of other instruments behind that. One of an alt-azimuth mount is the same, or has azimuth and
+//! elevation, true and as read, in degrees or in d m s.
 //!
 //! Source: the format as the manual of TPOINT describes it (P. T. Wallace, TPOINT, a telescope pointing analysis system,
-//! 2011), and as mount-control programs and observatories write it (JCMT, "Pointing data format under TPOINT").
+//! 2011), and as mount-control programs and observatories write it (JCMT, "Pointing data format under TPOINT", whose records under
+//! `:ALTAZ` have right ascensions).
 
 use chrono::NaiveDate;
 
@@ -65,22 +66,40 @@ pub(super) fn latitude_deg(words: &[&str]) -> Result<f64, String> {
     within("latitude", sexagesimal(latitude)?, -90.0, 90.0)
 }
 
-/// The numbers of a record, by the columns of its mount.
+/// The numbers of a record, by the columns of its mount at a latitude in degrees.
 ///
 /// # Errors
 /// What no record of this mount has.
-pub(super) fn record(mount: Mount, words: &[&str]) -> Result<Vec<f64>, String> {
+pub(super) fn record(mount: Mount, latitude_deg: f64, words: &[&str]) -> Result<Vec<f64>, String> {
     match mount {
         Mount::Equatorial => equatorial(words),
+        Mount::AltAzimuth if words.len() >= 14 => {
+            let sky = equatorial(words)?;
+            let [true_place, read_place] = [[sky[0], sky[1]], [sky[2], sky[3]]]
+                .map(|[ha_deg, dec_deg]| horizontal(ha_deg, dec_deg, latitude_deg));
+            Ok([true_place, read_place].concat())
+        }
         Mount::AltAzimuth => alt_azimuth(words),
     }
+}
+
+/// Azimuth from north through east and elevation of an hour angle and a declination, degrees.
+///
+/// Source: Explanatory Supplement to the Astronomical Almanac (2013), section 7.1.
+fn horizontal(ha_deg: f64, dec_deg: f64, latitude_deg: f64) -> [f64; 2] {
+    let [(sin_ha, cos_ha), (sin_dec, cos_dec), (sin_lat, cos_lat)] =
+        [ha_deg, dec_deg, latitude_deg].map(|degrees| degrees.to_radians().sin_cos());
+    let (west, south) = (cos_dec * sin_ha, cos_dec * cos_ha * sin_lat - sin_dec * cos_lat);
+    let up = sin_dec * sin_lat + cos_dec * cos_ha * cos_lat;
+    let azimuth_deg = (-west).atan2(-south).to_degrees().rem_euclid(360.0);
+    [azimuth_deg, up.atan2(west.hypot(south)).to_degrees()]
 }
 
 fn equatorial(words: &[&str]) -> Result<Vec<f64>, String> {
     let (Some(star), Some(read), Some(&[hours, minutes])) =
         (words.get(..6), words.get(6..12), words.get(12..14))
     else {
-        return Err("a record of `:EQUAT` has 14 numbers: right ascension and declination of the star (h m s, d m s), the same as \
+        return Err("a record of right ascensions has 14 numbers: right ascension and declination of the star (h m s, d m s), the same as \
                     read, and the sidereal time (h m)"
             .to_owned());
     };
@@ -124,8 +143,8 @@ fn alt_azimuth(words: &[&str]) -> Result<Vec<f64>, String> {
         12 => words.chunks(3).map(sexagesimal).collect::<Result<Vec<f64>, _>>()?,
         other => {
             return Err(format!(
-                "a record of `:ALTAZ` has 4 numbers (azimuth and elevation, true and as read, in degrees) or 12 (the same in d m s), \
-                 and this line has {other}: right ascensions belong under `:EQUAT`"
+                "a record of `:ALTAZ` has 4 numbers (azimuth and elevation, true and as read, in degrees), 12 (the same in d m s) or 14 \
+                 (right ascensions and declinations with the sidereal time), and this line has {other}"
             ));
         }
     };

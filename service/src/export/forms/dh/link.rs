@@ -6,6 +6,8 @@ use crate::export::links::Links;
 
 /// Axes are nearly parallel where the sine of their angle is below this: that of 5°, where an uncertainty across them grows elevenfold in d.
 const PARALLEL: f64 = 0.087;
+/// Below this the sine is rounding: the axes are parallel.
+const EXACTLY_PARALLEL: f64 = 1e-12;
 /// Parallel axes closer than this are one line, m.
 const ONE_LINE_M: f64 = 1e-9;
 
@@ -36,7 +38,7 @@ pub struct Aligned {
 
 impl Link {
     /// A link that goes nowhere.
-    const NONE: Self = Self { theta: 0.0, d: 0.0, a: 0.0, alpha: 0.0, beta: None };
+    pub const NONE: Self = Self { theta: 0.0, d: 0.0, a: 0.0, alpha: 0.0, beta: None };
 
     /// Its sizes by their names.
     pub fn parameters(&self) -> impl Iterator<Item = (&'static str, f64)> {
@@ -96,6 +98,10 @@ impl Link {
             return Self { theta, a: through.dot(&x), alpha: (-seen.y).atan2(seen.z), beta, ..*self };
         }
         let across = Vector3::z().cross(&axis);
+        if across.norm() < EXACTLY_PARALLEL {
+            let x = nearest(Vector3::new(shift.x, shift.y, 0.0).try_normalize(ONE_LINE_M).unwrap_or(usual));
+            return Self { theta: x.y.atan2(x.x), a: shift.dot(&x), ..*self };
+        }
         let x = nearest(across.normalize());
         let a = shift.dot(&x);
         let d = (shift - x * a).cross(&axis).dot(&across) / across.norm_squared();

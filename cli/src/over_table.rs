@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use model_core::Chain;
 use service::Instrument;
-use service::apply::{Layout, Place, doubts_of_rows, not_finite, numbers};
+use service::apply::{Layout, Place, not_finite, not_finite_warnings, numbers};
 use service::errors_file::{self, FoundOver};
 use service::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use service::readings::{ReadingsTable, Rows};
@@ -187,7 +187,7 @@ impl OverTable {
         progress.finish_and_clear();
         table.doubtful().for_each(terminal::warn);
         table.lost(&layout.is_replaced).iter().for_each(terminal::warn);
-        doubts_of_rows(infinite, table.without_reading()).iter().for_each(terminal::warn);
+        not_finite_warnings(infinite, table.without_reading()).iter().for_each(terminal::warn);
         Ok(())
     }
 }

@@ -106,7 +106,7 @@ fn close(name: &str, ours: f64, reference: f64, scale: f64) {
 fn log_evidence_gains_and_estimates_are_those_of_dense_covariances() {
     let numbers = numbers();
     let (problem, policy) = (problem(&numbers), Policy::default());
-    let mut bench = Bench::new(&problem, &policy, &|_| true).unwrap();
+    let mut bench = Bench::new(&problem, &policy, &|_, _| true).unwrap();
     let weights = numbers["weights"].clone();
     bench.noises.push(Noise { weights, ..Noise::even(48) });
     let memory = Memory { carried: numbers["memory"][0], part: numbers["memory"][1] };
@@ -169,7 +169,7 @@ fn log_evidence_gains_and_estimates_are_those_of_dense_covariances() {
 fn a_gram_matrix_grows_as_if_it_had_been_made_at_once() {
     let numbers = numbers();
     let (problem, policy) = (problem(&numbers), Policy::default());
-    let mut bench = Bench::new(&problem, &policy, &|_| true).unwrap();
+    let mut bench = Bench::new(&problem, &policy, &|_, _| true).unwrap();
     let memory = Some(Memory { carried: 0.9, part: 0.7 });
     let state = State { noise: 0, memory, point: 0 };
     let before = bench.view(state).gram.products.ncols();

@@ -7,7 +7,8 @@ use tables::formats::memory::{Column, Reader};
 use tables::formats::{self, Options};
 
 use crate::apply::{
-    As, AsMeasured, Beside, Correction, Counted, Layout, Outside, doubts_of_rows, not_finite, write_separated,
+    As, AsMeasured, Beside, Correction, Counted, Layout, Outside, not_finite, not_finite_warnings,
+    write_separated,
 };
 use crate::errors_file;
 use crate::evaluation::{self, Evaluator, Exactness, Quantity};
@@ -143,7 +144,7 @@ pub fn corrected(
     }
     table.doubtful().for_each(|doubt| warn(doubt.to_string()));
     table.lost(&layout.is_replaced).into_iter().for_each(warn);
-    doubts_of_rows(infinite, table.without_reading()).into_iter().for_each(warn);
+    not_finite_warnings(infinite, table.without_reading()).into_iter().for_each(warn);
     correction.warning().into_iter().for_each(warn);
     Ok(out)
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use init::robot::Description;
-use init::{Look, Names, templates};
+use init::{Draft, Look, Names, templates};
 use serde_json::{Value, json};
 use service::Source;
 use tables::formats::{self, Cells, Form, Input, Options, Wanted};
@@ -55,7 +55,9 @@ pub fn begin(asked: &Message, tell: Tell<'_>, warn: &dyn Fn(String)) -> Answered
 
 fn robot(text: &str) -> Result<Description, Refused> {
     let source = Source::of_text("the robot's URDF", text);
-    Ok(Description::urdf(Robot::of(&source.text).map_err(|mistake| source.mistake(mistake))?))
+    let robot = Robot::of(&source.text).map_err(|mistake| source.mistake(mistake))?;
+    let tip = asked.find("tip").map(|_| asked.text("tip")).transpose()?;
+    Ok(init::robot::draft(&Description::urdf(robot), tip, look)?)
 }
 
 /// The first rows of a table, column by column.

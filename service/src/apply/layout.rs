@@ -124,18 +124,17 @@ pub fn not_finite(computed: &[Column], count: usize) -> usize {
     (0..count).filter(|row| !is_finite(row)).count()
 }
 
-/// What to warn of where so many rows are not finite, of which some lack a reading that the study takes from another row.
+/// What to warn of where rows are not finite, of which so many take a reading from a row that is not there.
 #[must_use]
-pub fn doubts_of_rows(not_finite: usize, without_reading: usize) -> Vec<String> {
-    let unread = (without_reading > 0).then(|| {
+pub fn not_finite_warnings(rows: usize, unread: usize) -> Vec<String> {
+    let of_unread = (unread > 0).then(|| {
         format!(
-            "{without_reading} rows take a reading from a row before or behind that the file does not have (`shift` in the study): what is \
-             computed of them is NaN"
+            "{unread} rows take a reading from a row before or behind that the file does not have (`shift` in the study): what is computed of \
+             them is NaN"
         )
     });
-    let infinite = not_finite
-        .checked_sub(without_reading)
-        .filter(|rows| *rows > 0)
-        .map(|rows| format!("{rows} rows are not finite: the chain has a pole there, or a number too large"));
-    unread.into_iter().chain(infinite).collect()
+    let poles = rows.saturating_sub(unread);
+    let of_poles = (poles > 0)
+        .then(|| format!("{poles} rows are not finite: the chain has a pole there, or a number too large"));
+    of_unread.into_iter().chain(of_poles).collect()
 }

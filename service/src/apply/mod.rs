@@ -11,7 +11,7 @@ mod uncertain;
 pub use as_measured::{AsMeasured, in_vectors};
 pub use correct::{Beside, Correction};
 pub use found::{Counted, Outside};
-pub use layout::{Layout, Place, doubts_of_rows, not_finite, numbers, write_separated};
+pub use layout::{Layout, Place, not_finite, not_finite_warnings, numbers, write_separated};
 pub use seen::{As, Seen};
 pub use solve::Solver;
 pub(crate) use solve::distance;

@@ -23,16 +23,11 @@ pub fn begin(asked: &Message, tell: Tell<'_>, warn: &dyn Fn(String)) -> Answered
     let look = Look::at(&mut *open()?)?;
     let of_robot = asked.find("urdf").map(|_| asked.text("urdf")).transpose()?;
     let (template, what, draft) = match of_robot {
-        Some(text) => {
-            let robot = robot(text)?;
-            let tip = asked.find("tip").map(|_| asked.text("tip")).transpose()?;
-            let what = format!("a robot as {} describes it", robot.what);
-            ("robot", what, init::robot::draft(&robot, tip, &look)?)
-        }
+        Some(text) => ("robot", "a robot as its URDF describes it", robot(asked, text, &look)?),
         None => {
             let chosen = asked.find("template").map(|_| asked.text("template")).transpose()?;
             let (template, draft) = init::draft(&look, chosen.and_then(templates::named))?;
-            (template.name, template.what.to_owned(), draft)
+            (template.name, template.what, draft)
         }
     };
     let stem = Path::new(name).file_stem().map_or_else(|| name.into(), |stem| stem.to_string_lossy());
@@ -53,7 +48,7 @@ pub fn begin(asked: &Message, tell: Tell<'_>, warn: &dyn Fn(String)) -> Answered
     Ok((true, answer))
 }
 
-fn robot(text: &str) -> Result<Description, Refused> {
+fn robot(asked: &Message, text: &str, look: &Look) -> Result<Draft, Refused> {
     let source = Source::of_text("the robot's URDF", text);
     let robot = Robot::of(&source.text).map_err(|mistake| source.mistake(mistake))?;
     let tip = asked.find("tip").map(|_| asked.text("tip")).transpose()?;

@@ -339,11 +339,7 @@ pub fn draft(description: &Description, tip: Option<&str>, look: &Look) -> Resul
         columns,
         observed,
         turned: turned.map(|turned| ("turned", turned)),
-        estimate: if description.is_seen_from_root {
-            vec!["*", "point_*"]
-        } else {
-            vec!["*", "point_*", "base_*"]
-        },
+        estimate,
         start,
         inputs: Vec::new(),
         remarks,

@@ -335,7 +335,7 @@ fn happened(diagnosis: &Diagnosis) -> String {
                     "After the fit, half of the directions miss by more than 11°.".to_owned()
                 }
                 Ended::NoRest { .. } => {
-                    "After the fit, most rows lie far from where the declaration puts them.".to_owned()
+                    "After the fit, most rows are far from where the declaration puts them.".to_owned()
                 }
                 Ended::Converged { .. } | Ended::TooFewObservations { .. } => {
                     "The fit found no minimum.".to_owned()

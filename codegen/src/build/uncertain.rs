@@ -13,6 +13,9 @@ pub struct Covariance<'a> {
     pub rows: &'a [Vec<f64>],
 }
 
+/// Derivatives that some estimates have in common, and the places of these with their signs.
+type Distinct = (Vec<Value>, Vec<(usize, f64)>);
+
 /// The standard uncertainty of each number shown, from its derivatives by the estimates, row by row.
 pub(super) fn standard(b: &mut Builder, derivatives: &[Value], covariance: &Covariance<'_>) -> Vec<Value> {
     let count = covariance.of.len();
@@ -20,7 +23,7 @@ pub(super) fn standard(b: &mut Builder, derivatives: &[Value], covariance: &Cova
     let column = |at: usize| -> Vec<Value> { (0..shown).map(|row| derivatives[row * count + at]).collect() };
     // Estimates that move what is shown in the same way count as one, their sum: fewer operations, and what only their
     // sum is sure of is not taken apart.
-    let mut distinct: Vec<(Vec<Value>, Vec<(usize, f64)>)> = Vec::new();
+    let mut distinct: Vec<Distinct> = Vec::new();
     for at in 0..count {
         let own = column(at);
         if own.iter().all(|value| *value == Builder::ZERO) {

@@ -119,7 +119,7 @@ pub fn generated(
     language: &str,
     names: &[String],
 ) -> Result<Vec<(&'static str, String)>, Failure> {
-    let files = formulas::files(source, chain, &[], language, names)?;
+    let files = formulas::files(source, chain, language, names)?;
     Ok(files.into_iter().map(|file| (file.extension, file.text)).collect())
 }
 

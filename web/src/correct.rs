@@ -23,7 +23,7 @@ pub fn correct(asked: &Message, tell: Tell<'_>, warn: &dyn Fn(String)) -> Answer
 pub fn generate(asked: &Message, tell: Tell<'_>, warn: &dyn Fn(String)) -> Answered {
     tell("writing code");
     let own = instrument(asked, warn)?;
-    let files = formulas::files(&own.declaration, &own.chain, &own.named, asked.text("language")?, &[])?;
+    let files = formulas::files_of_instrument(&own, asked.text("language")?)?;
     Ok((true, of_files(&codegen::snake_case(&own.chain.name), files)))
 }
 

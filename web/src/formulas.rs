@@ -66,7 +66,7 @@ pub fn code(asked: &Message, tell: Tell<'_>, warn: &dyn Fn(String)) -> Answered 
     tell("writing code");
     let source = declaration(asked)?;
     let chain = source.chain(warn)?;
-    let files = formulas::files(&source, &chain, &[], asked.text("language")?, &[])?;
+    let files = formulas::files(&source, &chain, asked.text("language")?, &[])?;
     Ok((true, of_files(&codegen::snake_case(&chain.name), files)))
 }
 

@@ -6,7 +6,7 @@ use codegen::{Calibrated, Covariance, Form, Precision, Unit};
 use model_core::remainder::{self, Domain};
 use model_core::{Chain, ObservableId, SymbolKind};
 use service::apply::region;
-use service::formulas::EVERY_FORM;
+use service::formulas::forms_of;
 use service::source::observables;
 use service::{Instrument, Refusal, errors_file};
 
@@ -174,15 +174,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         valid_until: calibration.and_then(|instrument| instrument.valid_until.as_deref()),
     };
     let forms = match arguments.only.as_slice() {
-        [] => {
-            let mut forms = EVERY_FORM.to_vec();
-            let has_derivatives =
-                chosen.iter().all(|&id| codegen::derivable(chain.observable(id), Form::Uncertainty).is_ok());
-            if covariance.is_some() && arguments.precision == PrecisionName::F64 && has_derivatives {
-                forms.push(Form::Uncertainty);
-            }
-            forms
-        }
+        [] => forms_of(&chain, &chosen, covariance.is_some() && arguments.precision == PrecisionName::F64),
         only => only.iter().map(|&form| form.into()).collect(),
     };
     let unit = Unit {

@@ -7,5 +7,5 @@ mod identify;
 
 pub use bound::{bound_as_json, bounds};
 pub use derive::{closed_forms, title_of, unique_roots};
-pub use generate::{EVERY_FORM, files, loadable};
+pub use generate::{files, files_of_instrument, forms_of, loadable};
 pub use identify::{Identified, identified};

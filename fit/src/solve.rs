@@ -60,7 +60,7 @@ pub fn fit_by(
     if options.other_starts
         && (is_pulled_off || solver.has_long_errors(&course) || solver.doubtful(&course)?)
     {
-        course = solver.from_other_homes(course)?;
+        course = solver.best_of_homes(course)?;
     }
     // Rows that are set aside only now leave few of them for what they now show.
     if solver.counts_in_full(&course) {
@@ -163,7 +163,7 @@ impl Solver<'_> {
     }
 
     /// The best of a course and of those in which one joint counts from elsewhere.
-    fn from_other_homes(&mut self, course: Course) -> Result<Course, FitError> {
+    fn best_of_homes(&mut self, course: Course) -> Result<Course, FitError> {
         let mut best = course;
         if self.observations.rows() > SAMPLE {
             return Ok(best);

@@ -3,6 +3,7 @@
 //!
 //! The mobile lidar with every error estimated, pointing alone and all observables, and a dense covariance. Programs take turns, and the
 //! least of several rounds counts: `cargo run --release -p trueaxis-benches --bin live_speed`.
+#![allow(clippy::print_stdout)]
 
 use std::collections::BTreeMap;
 use std::error::Error;

@@ -163,7 +163,9 @@ impl Solver<'_> {
 
     /// The whole quarter turns of each parameter at some values, rad.
     pub(super) fn homes_at(&self, values: &[f64]) -> Vec<f64> {
-        let of = |&id: &SymbolId| home(self.chain, id, values[id.index()]);
+        // Directions tell how far off they are, and have other starts.
+        let are_directions = self.tell_far_off();
+        let of = |&id: &SymbolId| if are_directions { 0.0 } else { home(self.chain, id, values[id.index()]) };
         self.model.parameters().iter().map(of).collect()
     }
 

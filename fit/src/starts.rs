@@ -79,9 +79,10 @@ impl Solver<'_> {
         })
     }
 
-    /// Starts at which one joint counts from a quarter or half turn away, where its index is estimated; none beside unknown objects.
+    /// Starts at which one joint counts from a quarter or half turn away, where its index is estimated; none beside unknown objects, and none of
+    /// directions, which have other starts.
     pub(super) fn other_homes(&self) -> Vec<Vec<f64>> {
-        if self.observations.unknowns.is_some() {
+        if self.observations.unknowns.is_some() || self.tell_far_off() {
             return Vec::new();
         }
         let given = self.with_state(self.options.start.clone());
@@ -94,11 +95,15 @@ impl Solver<'_> {
         indices.flat_map(|id| QUARTERS.map(|quarters| turned(id, quarters))).collect()
     }
 
+    /// Whether all that is measured are directions: of these it is known how far off is far.
+    pub(super) fn tell_far_off(&self) -> bool {
+        self.observations.poses.series.iter().all(|series| series.measure.kind().tells_far_off)
+    }
+
     /// How far off half of the directions are, rad; `None` where anything else is measured, of which nobody knows how large
     /// it is.
     fn median_rad(&self, course: &Course) -> Option<f64> {
-        let series = &self.observations.poses.series;
-        if !series.iter().all(|series| series.measure.kind().tells_far_off) {
+        if !self.tell_far_off() {
             return None;
         }
         let mut norms: Vec<f64> = self.layout.norms(&course.point.sweep.residual).collect();

@@ -18,13 +18,14 @@ pub(super) fn unwound(chain: &Chain, parameters: &[SymbolId], mut values: Vec<f6
     values
 }
 
-/// The whole quarter turns in the value of an error that is an angle, rad: its home, about which it is small. No quarter turn for others.
+/// The whole quarter turns in the value of an error that is the index of a joint, rad: its home, about which it is small. No quarter turn for
+/// others.
 pub(super) fn home(chain: &Chain, id: SymbolId, value: f64) -> f64 {
     let quarters = (value / FRAC_PI_2).round();
     let turns = quarters != 0.0
         && quarters.is_finite()
         && chain.symbol(id).kind == SymbolKind::Error
-        && only_turns(chain, id);
+        && is_index(chain, id);
     if turns { quarters * FRAC_PI_2 } else { 0.0 }
 }
 
@@ -62,7 +63,7 @@ mod tests {
             "chain Arm {
                 body link on ground { motion: Rz(q); motion_error: Rz(index), Ry(slope*q), Tx(length); }
                 body tip on link { position: Rz(pose); }
-                estimate const pose: angle = 1.6;
+                const pose: angle = 1.6;
                 observe tip: point(1, 0, 0) of tip;
             }",
         )

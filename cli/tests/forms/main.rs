@@ -143,13 +143,31 @@ fn folder(name: &str, files: &[&str]) -> Folder {
     folder
 }
 
+/// The cells of a line; a decimal comma stands within quotes.
+fn cells(line: &str) -> Vec<String> {
+    let mut cells = vec![String::new()];
+    let mut is_quoted = false;
+    for letter in line.chars() {
+        match letter {
+            '"' => is_quoted = !is_quoted,
+            ',' if !is_quoted => cells.push(String::new()),
+            letter => {
+                let last = cells.len() - 1;
+                cells[last].push(if letter == ',' { '.' } else { letter });
+            }
+        }
+    }
+    cells
+}
+
 /// A column of a table.
 fn column(table: &str, name: &str) -> Vec<f64> {
     let mut lines = table.lines();
     let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
     let at = header.iter().position(|own| own.trim_matches('"') == name);
     let at = at.unwrap_or_else(|| panic!("no column {name} in {header:?}"));
-    lines.map(|line| line.split(',').nth(at).expect("a cell").parse().expect("a number")).collect()
+    let number = |cell: &str| cell.parse().unwrap_or_else(|_| panic!("{name}: `{cell}` is no number"));
+    lines.map(|line| number(&cells(line)[at])).collect()
 }
 
 /// The table of a file as it is read: `eval` of nothing would do, but `apply` keeps only what it does not replace.

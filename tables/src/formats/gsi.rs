@@ -30,7 +30,7 @@ const READ: [&str; 11] = ["11", "16", "21", "22", "31", "81", "82", "83", "84", 
 
 /// Whether a word is one that is read, by its index.
 fn is_read(word: &str) -> bool {
-    word.get(..2).is_none_or(|index| READ.contains(&index))
+    word.get(..2).is_some_and(|index| READ.contains(&index))
 }
 
 /// Whether the first line begins with a word.

@@ -21,7 +21,7 @@ body { margin: 0; font: clamp(24px, 2.6vw, 40px)/1.4 system-ui, sans-serif; }
 section { min-height: 100vh; box-sizing: border-box; padding: 7vh 8vw; scroll-snap-align: start; position: relative; break-after: page; }
 h1 { font-size: 1.5em; margin: 0 0 .6em; }
 blockquote { margin: .6em 0; font-size: 1.25em; }
-img { max-width: 100%; max-height: 40vh; background: #fff; }
+img { max-width: 100%; max-height: 32vh; background: #fff; }
 pre { overflow-x: auto; }
 aside { display: none; border-top: 2px solid; margin-top: 1em; padding-top: .4em; }
 .notes aside { display: block; }

@@ -7,3 +7,4 @@ pub mod design;
 pub mod diagnose;
 pub mod misread;
 pub mod search;
+pub mod thresholds;

@@ -1,6 +1,9 @@
 //! `report.json`: the diagnosis, and what it was made with.
 
+use std::collections::BTreeMap;
+
 use calibration::diagnose::Diagnosis;
+use calibration::thresholds::decided;
 use model_core::escape;
 use network::Placed;
 use serde::Serialize;
@@ -20,6 +23,8 @@ struct Json<'a> {
     schema: u32,
     #[serde(flatten)]
     diagnosis: &'a Diagnosis,
+    /// The thresholds that decided, by their names in the book.
+    policy: BTreeMap<&'static str, f64>,
     /// Where objects and stations came out, where they are few enough.
     #[serde(skip_serializing_if = "Option::is_none")]
     places: Option<&'a Placed>,
@@ -42,6 +47,7 @@ pub fn json(reported: &Reported<'_>) -> Result<String, NotJson> {
     let json = Json {
         schema: SCHEMA,
         diagnosis: &reported.calibration.diagnosis,
+        policy: decided(&reported.calibration.diagnosis).iter().map(|own| (own.name, own.value)).collect(),
         places: reported.calibration.places.as_ref().filter(is_short),
         diff: diff(reported),
         provenance: reported.provenance,

@@ -73,6 +73,14 @@ pub(crate) fn is_asked(whole: &Context<'_>) -> bool {
         && plan.search.only.is_empty()
 }
 
+/// What a contest decides by where a study asks for a rate of false alarms.
+pub(crate) fn policy(false_alarm: f64) -> Policy {
+    let mut policy = Policy::default();
+    // False alarms fall as odds rise, by as much at least.
+    policy.name_margin += (policy.margin_at / false_alarm).ln().max(0.0);
+    policy
+}
+
 /// A contest at a fit.
 pub(crate) struct Contest {
     asked: Asked,
@@ -82,9 +90,7 @@ pub(crate) struct Contest {
 impl Contest {
     /// At a fit of the declaration, or of the declaration with effects.
     pub fn at(whole: &Context<'_>, fitted: &Fitted) -> Result<Self, SearchError> {
-        let mut policy = Policy::default();
-        // False alarms fall as odds rise, by as much at least.
-        policy.name_margin += (policy.margin_at / whole.options.false_alarm).ln().max(0.0);
+        let policy = policy(whole.options.false_alarm);
         Ok(Self { asked: problem::asked(whole, fitted)?, policy })
     }
 

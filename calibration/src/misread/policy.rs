@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use evidence::policy::Threshold;
+
 /// A hypothesis is told when its score is so much better than that of the study's own reading.
 pub(super) const MARGIN: f64 = 5.0;
 /// And the residual shrinks to this share.
@@ -40,19 +42,6 @@ pub(super) const MOST_RESIDUAL_SHARE: f64 = 0.03;
 pub(super) const FITTED: usize = 9;
 pub(super) const PARTS: usize = 3;
 pub(super) const SCREENED_STEPS: usize = 4;
-
-/// A number that decides: its name, value, meaning and source.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Threshold {
-    /// Its name.
-    pub name: &'static str,
-    /// Its value.
-    pub value: f64,
-    /// What it decides.
-    pub meaning: &'static str,
-    /// Where it comes from.
-    pub source: &'static str,
-}
 
 const TRIALS: &str =
     "402 clean and 190 misread simulated studies of eight instruments, thresholds moved once between halves";

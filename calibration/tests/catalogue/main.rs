@@ -9,3 +9,4 @@ mod own;
 mod page;
 mod pattern;
 mod support;
+mod thresholds;

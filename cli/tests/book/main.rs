@@ -7,6 +7,7 @@
 mod support;
 
 mod decks;
+mod explorables;
 mod interactive;
 mod lessons;
 mod links;

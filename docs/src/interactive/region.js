@@ -31,7 +31,7 @@ function draw() {
   const [inside, outside] = [grid.filter((e) => e >= from && e <= to), grid.filter((e) => e < from || e > to)];
   element("causes").innerHTML = fits.map(({ words, rest, at }) => `<tr><td>${words}</td>${told(rest, `${rest.toFixed(2)}″`)}${told(at(10), `${at(10).toFixed(1)}″`)}</tr>`).join("");
   element("apart").innerHTML = [["inside", inside], ["outside, down to 6°", outside]].map(([words, where]) => `<tr><td>${words}</td>${told(apart(where), `${apart(where).toFixed(1)}″`)}</tr>`).join("");
-  element("words").textContent = `Measured from ${from}° to ${to}°. Inside, the three corrections are at most ${apart(inside).toFixed(1)}″ apart; outside, up to ${apart(outside).toFixed(0)}″.`;
+  element("words").textContent = `Measured from ${from}° to ${to}°. Inside, the three corrections are at most ${apart(inside).toFixed(1)}″ apart. Outside, they are up to ${apart(outside).toFixed(0)}″ apart.`;
   const level = [-120, 40];
   chart("curves", { x: [0, 90], y: level, xTicks: [0, 30, 60, 90], yTicks: [-120, -80, -40, 0, 40], xWords: (v) => `${v}°`, yWords: (v) => `${v}″`, title: "upwards, over the elevation" }, (place) => {
     const [[x, y], [right, low]] = [place([from, level[1]]), place([to, level[0]])];

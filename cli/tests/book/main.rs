@@ -12,6 +12,7 @@ mod interactive;
 mod lessons;
 mod links;
 mod page;
+mod pictures;
 mod signatures;
 
 use std::fs;

@@ -145,3 +145,19 @@ fn pages_show_what_they_claim() {
     let [by_rows, _, by_setups, _] = numbers(&page, "numbers")[..] else { panic!("{page}") };
     assert!((0.27..0.40).contains(&by_rows) && (0.93..0.97).contains(&by_setups), "{by_rows} {by_setups}");
 }
+
+#[test]
+fn an_address_from_a_stranger_spoils_nothing() {
+    let evil = "%22%3E%3Cimg%20src%3Dx%20onerror%3D%22document.title%3D1%22%3E";
+    for (page, setting) in
+        [("cancel", "foundation"), ("cancel", "pair"), ("talk", "effect"), ("bound", "largest")]
+    {
+        for value in [evil, "99999", "1e400"] {
+            let Some((shown, console)) = browse(&format!("{page}.html#choice=0&{setting}={value}")) else {
+                return;
+            };
+            assert_eq!(console, "", "{page}: {setting}={value}");
+            assert!(!shown.contains("<img") && !shown.contains("NaN"), "{page}: {setting}={value}: {shown}");
+        }
+    }
+}

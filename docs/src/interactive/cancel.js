@@ -19,10 +19,10 @@ let shownPair = null;
 function knobsOf(pair) {
   if (pair === shownPair) return;
   shownPair = pair;
-  sliders("knobs", PAIRS[pair].map((name) => [name, WORDS[name], -60, 60, 1, given.get(name) ?? 0, "″"]));
+  sliders("knobs", PAIRS[pair].map((name) => [name, WORDS[name], -60, 60, 1, Number(given.get(name)) || 0, "″"]));
   for (const name of PAIRS[pair]) element(`${name}-out`).textContent = `${element(name).value}″`;
 }
-knobsOf(Number(given.get("pair") ?? 0));
+knobsOf(Number(given.get("pair")) in PAIRS ? Number(given.get("pair")) : 0);
 
 function draw() {
   knobsOf(valueOf("pair"));

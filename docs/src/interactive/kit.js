@@ -25,7 +25,9 @@ function sliders(into, rows) {
 /** Asks first; `draw` is called once an answer is chosen, and again whenever something is moved. `#choice=1` answers in the address. */
 function predict(draw) {
   for (const [id, value] of given) {
-    if (element(id) && "value" in element(id)) element(id).value = value;
+    const input = element(id);
+    const isKnown = input?.tagName === "SELECT" && [...input.options].some((option) => option.value === value);
+    if (input?.type === "range" || isKnown) input.value = value;
   }
   const refresh = () => {
     for (const input of document.querySelectorAll("input[type=range]")) {

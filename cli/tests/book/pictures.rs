@@ -189,3 +189,32 @@ fn pictures_of_pages_are_what_the_commands_draw() {
         "draw them anew with UPDATE_BOOK=1: {stale:?}"
     );
 }
+
+/// Pages that are tables of measurements.
+const TABLES: [&str; 6] = [
+    "algebra/speed",
+    "calibration/growth",
+    "calibration/instruments",
+    "codegen/speed",
+    "diagnosis/blind",
+    "diagnosis/evaluation",
+];
+
+#[test]
+fn every_reference_page_shows_a_picture() {
+    let rooms = "algebra calibration certificates checker codegen commands diagnosis language macro python";
+    let mut without = Vec::new();
+    for room in rooms.split(' ') {
+        for entry in fs::read_dir(root().join("docs/src").join(room)).expect("a room of the book") {
+            let path = entry.expect("readable").path();
+            if path.extension().is_some_and(|extension| extension == "md") {
+                let page = format!("{room}/{}", path.file_stem().expect("a name").to_string_lossy());
+                if !fs::read_to_string(&path).expect("a page").contains(".svg)") {
+                    without.push(page);
+                }
+            }
+        }
+    }
+    without.sort();
+    assert_eq!(without, TABLES);
+}

@@ -1,5 +1,6 @@
 //! The pages to play with: their code is what `generate` writes, and a browser shows the numbers that `eval` computes.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -79,7 +80,7 @@ fn bounds() -> String {
             line.and_then(|line| line.split(' ').next_back()).unwrap_or_else(|| panic!("{}", run.stdout))
         };
         let (proven, found) = (last("is never more than"), last("largest found by search"));
-        script.push_str(&format!("  [{arcsec}, {proven}, {found}],\n"));
+        let _ = writeln!(script, "  [{arcsec}, {proven}, {found}],");
     }
     script + "];\n"
 }

@@ -10,3 +10,5 @@ for (const apply of document.querySelectorAll("math mo")) {
     name.before(space);
   }
 }
+// Links to `README.md` are written as `README.html`, which only leads on to `index.html`: with a script they go there at once, to the heading they name.
+for (const link of document.querySelectorAll('a[href*="README.html"]')) link.setAttribute("href", link.getAttribute("href").replace("README.html", "index.html"));

@@ -22,7 +22,7 @@ section { min-height: 100vh; box-sizing: border-box; padding: 7vh 8vw; scroll-sn
 h1 { font-size: 1.5em; margin: 0 0 .6em; }
 blockquote { margin: .6em 0; font-size: 1.25em; }
 img { max-width: 100%; max-height: 32vh; background: #fff; }
-pre { overflow-x: auto; }
+pre { white-space: pre-wrap; overflow-wrap: anywhere; }
 aside { display: none; border-top: 2px solid; margin-top: 1em; padding-top: .4em; }
 .notes aside { display: block; }
 .number { position: absolute; right: 4vw; bottom: 2vh; margin: 0; }
@@ -190,9 +190,14 @@ fn the_pages_of_the_decks_are_what_their_sources_say() {
     assert!(stale.is_empty(), "render them anew with UPDATE_BOOK=1: {stale:?}");
 }
 
-/// Says in the page which slides are higher than the screen.
-const MEASURE: &str = "<script>document.body.dataset.cut = [...document.querySelectorAll('section')].filter((slide) => \
-                       slide.offsetHeight > innerHeight + 1).map((slide) => slide.innerText.split('\\n')[0]).join('; ');</script>";
+/// Says in the page which slides are higher than the screen, have something wider than the slide, or text below 18 pt.
+const MEASURE: &str = "<script>{
+  const isWide = (node) => node.clientWidth && node.scrollWidth > node.clientWidth + 1;
+  const isSmall = (node) => node.getClientRects().length && parseFloat(getComputedStyle(node).fontSize) < 24;
+  const cut = (slide) => slide.offsetHeight > innerHeight + 1 || [...slide.querySelectorAll('pre, table, p, li')].some(isWide) ||
+    [...slide.querySelectorAll('h1, p, li, pre, code, td, th, blockquote')].some(isSmall);
+  document.body.dataset.cut = [...document.querySelectorAll('section')].filter(cut).map((slide) => slide.innerText.split('\\n')[0]).join('; ');
+}</script>";
 
 #[test]
 fn a_browser_cuts_nothing_of_a_slide() {
@@ -207,6 +212,6 @@ fn a_browser_cuts_nothing_of_a_slide() {
         );
         let Some((shown, console)) = browse_file(&folder.0, "deck.html") else { return };
         assert_eq!(console, "");
-        assert!(shown.contains("data-cut=\"\""), "{name}: higher than the screen: {shown}");
+        assert!(shown.contains("data-cut=\"\""), "{name}: cut or small: {shown}");
     }
 }

@@ -1,30 +1,55 @@
 //! The pages to play with: their code is what `generate` writes, and a browser shows the numbers that `eval` computes.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
 use crate::support::{Folder, root};
 
-const MODEL: &str = "docs/src/interactive/mobile-lidar.js";
+const FOLDER: &str = "docs/src/interactive";
 const CHAIN: &str = "examples/mobile-lidar/mobile-lidar.chain";
+const MOUNT: &str = "examples/course/mount.chain";
+
+/// A generated module of the pages.
+struct Model {
+    /// The script in [`FOLDER`], without its ending.
+    file: &'static str,
+    /// What the pages call it.
+    name: &'static str,
+    chain: &'static str,
+    /// What else `generate` is asked.
+    arguments: &'static str,
+}
+
+/// What the pages with a question ask of a chain.
+const ONE_POSE: &str =
+    "--no-rows --only exact-value --only exact-error --only first-order-error --only first-order-jacobian";
+const MODELS: [Model; 5] = [
+    Model {
+        file: "mobile-lidar",
+        name: "mobileLidar",
+        chain: CHAIN,
+        arguments: "--observable pointing --observable position",
+    },
+    Model { file: "mount", name: "mount", chain: MOUNT, arguments: ONE_POSE },
+    Model { file: "orders", name: "orders", chain: "docs/src/interactive/orders.chain", arguments: ONE_POSE },
+    Model { file: "knobs", name: "knobs", chain: "docs/src/interactive/knobs.chain", arguments: ONE_POSE },
+    Model {
+        file: "effects",
+        name: "effects",
+        chain: "docs/src/interactive/effects.chain",
+        arguments: ONE_POSE,
+    },
+];
 
 /// The generated module as a plain script, which a page opened from a folder may load.
-fn model() -> String {
-    let folder = Folder::new("book-interactive-model");
-    let chain = root().join(CHAIN).display().to_string();
-    let run = folder.trueaxis(&[
-        "generate",
-        &chain,
-        "--language",
-        "javascript",
-        "--observable",
-        "pointing",
-        "--observable",
-        "position",
-        "--out",
-        "model.js",
-    ]);
+fn script(model: &Model) -> String {
+    let folder = Folder::new(&format!("book-interactive-{}", model.file));
+    let chain = root().join(model.chain).display().to_string();
+    let mut arguments = vec!["generate", &chain, "--language", "javascript", "--out", "model.js"];
+    arguments.extend(model.arguments.split(' '));
+    let run = folder.trueaxis(&arguments);
     assert_eq!(run.code, 0, "{}", run.stderr);
     let generated = folder.read("model.js");
     let names: Vec<&str> = generated
@@ -37,22 +62,48 @@ fn model() -> String {
         .collect();
     let script = generated.lines().map(|line| format!("{}\n", line.strip_prefix("export ").unwrap_or(line)));
     let script: String = script.collect();
-    format!("(() => {{\n{script}\nwindow.mobileLidar = {{ {} }};\n}})();\n", names.join(", "))
+    format!("(() => {{\n{script}\nwindow.{} = {{ {} }};\n}})();\n", model.name, names.join(", "))
+}
+
+/// What `bound` proves of the mount, and what its search finds, for some sizes of every error.
+fn bounds() -> String {
+    let folder = Folder::new("book-interactive-bounds");
+    let chain = root().join(MOUNT).display().to_string();
+    let mut script = "// Largest size of each error of the mount in seconds of arc; what `trueaxis bound` proves of |exact - first order|; \
+                      what it found.\nwindow.bounds = [\n"
+        .to_owned();
+    for arcsec in [1, 3, 10, 30, 60, 180, 600, 1800, 3600] {
+        folder.write("box.toml", format!("\"*\" = \"{arcsec} arcsec\"\n"));
+        let run = folder.trueaxis(&["bound", &chain, "--sizes", "box.toml"]);
+        let last = |words: &str| {
+            let line = run.stdout.lines().find(|line| line.contains(words));
+            line.and_then(|line| line.split(' ').next_back()).unwrap_or_else(|| panic!("{}", run.stdout))
+        };
+        let (proven, found) = (last("is never more than"), last("largest found by search"));
+        let _ = writeln!(script, "  [{arcsec}, {proven}, {found}],");
+    }
+    script + "];\n"
 }
 
 #[test]
-fn the_pages_run_what_generate_writes() {
-    let (path, model) = (root().join(MODEL), model());
-    if std::env::var_os("UPDATE_BOOK").is_some() {
-        fs::write(&path, &model).expect("the book is ours to write");
+fn the_pages_run_what_the_program_writes() {
+    let models = MODELS.iter().map(|model| (model.file, script(model)));
+    let mut stale = Vec::new();
+    for (file, script) in models.chain([("bounds", bounds())]) {
+        let path = root().join(FOLDER).join(file).with_extension("js");
+        if std::env::var_os("UPDATE_BOOK").is_some() {
+            fs::write(&path, &script).expect("the book is ours to write");
+        }
+        if fs::read_to_string(path).expect("a script of the pages") != script {
+            stale.push(file);
+        }
     }
-    let committed = fs::read_to_string(path).expect("the script of the pages");
-    assert!(committed == model, "{MODEL} is not what `generate` writes: run the test with UPDATE_BOOK=1");
+    assert!(stale.is_empty(), "not what the program writes: {stale:?}; run the test with UPDATE_BOOK=1");
 }
 
 /// A page as a browser leaves it, and what it wrote to its console; `None` where no browser is.
-fn browse(page: &str) -> Option<(String, String)> {
-    browse_file(&root().join("docs/src/interactive"), page)
+pub fn browse(page: &str) -> Option<(String, String)> {
+    browse_file(&root().join(FOLDER), page)
 }
 
 /// The same of a page of any folder.
@@ -86,7 +137,7 @@ pub fn browse_file(folder: &Path, page: &str) -> Option<(String, String)> {
 }
 
 /// The numbers of a table of the page, row by row.
-fn numbers(page: &str, table: &str) -> Vec<f64> {
+pub fn numbers(page: &str, table: &str) -> Vec<f64> {
     let body = page.split(&format!("<tbody id=\"{table}\">")).nth(1).expect("the table");
     let body = body.split("</tbody>").next().expect("its end");
     body.split("data-value=\"")

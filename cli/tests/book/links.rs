@@ -97,6 +97,21 @@ fn every_link_leads_somewhere() {
     assert!(dead.is_empty(), "{}", dead.join("\n"));
 }
 
+/// mdBook writes a README as `index.html`, and links to it as `README.html`.
+#[test]
+fn links_to_a_readme_are_led_on() {
+    let (settings, book) = (read(&root().join("docs/book.toml")), root().join("docs/src"));
+    let lost: Vec<String> = pages()
+        .iter()
+        .filter(|page| page.starts_with(&book) && page.ends_with("README.md"))
+        .map(|page| {
+            page.strip_prefix(&book).expect("a page of the book").with_extension("html").display().to_string()
+        })
+        .filter(|page| !settings.contains(&format!("\"/{page}\" = \"index.html\"")))
+        .collect();
+    assert!(lost.is_empty(), "docs/book.toml leads nowhere from {lost:?}");
+}
+
 #[test]
 fn every_page_is_in_the_table_of_contents() {
     let book = root().join("docs/src");

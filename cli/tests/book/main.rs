@@ -7,10 +7,12 @@
 mod support;
 
 mod decks;
+mod explorables;
 mod interactive;
 mod lessons;
 mod links;
 mod page;
+mod pictures;
 mod signatures;
 
 use std::fs;

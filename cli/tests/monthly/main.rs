@@ -4,6 +4,7 @@
 mod support;
 
 mod compare;
+mod plan;
 mod refused;
 mod uncertainty;
 mod verify;

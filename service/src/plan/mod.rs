@@ -113,12 +113,15 @@ pub fn errors_named(chain: &Chain, patterns: &[String]) -> Result<Vec<SymbolId>,
     Ok(chain.symbols_of(SymbolKind::Error).filter(is_named).collect())
 }
 
-/// What is measured of an observable where no study says it: a direction or a point.
+/// What is measured of an observable where no study says it: a direction, a point or an orientation.
 ///
 /// # Errors
 /// It shows single readings.
 pub fn measure_of(chain: &Chain, observable: ObservableId) -> Result<Measure, Refusal> {
     let shown = chain.observable(observable);
+    if shown.is_orientation() {
+        return Ok(Measure::Orientation);
+    }
     if !shown.is_vector() {
         let name = &shown.name;
         return Err(Refusal::Input(format!(

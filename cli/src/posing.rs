@@ -1,11 +1,11 @@
 //! Readings to set for whole poses: `apply --solve --pose`.
 
 use model_core::names::listed;
-use model_core::{Chain, ObservableId, ObservableKind, Quantity as Measures, SymbolId, SymbolKind};
+use model_core::{Chain, ObservableId, ObservableKind, SymbolId, SymbolKind};
 use observe::SiUnit;
 use report::words::numbers::told;
-use service::apply::{self, Place, PoseForm, REACHED, Search, Solved, Solver, nominal_pose};
-use service::evaluation::readings_of;
+use service::apply::{self, Outside, Place, PoseForm, REACHED, Search, Solved, Solver, nominal_pose};
+use service::evaluation::{Evaluator, Exactness, Quantity, readings_of};
 use service::ranges::Range;
 use service::source::observables;
 use tables::formats::{Column, Kept, Texts};
@@ -47,6 +47,8 @@ pub fn solve(over: &OverTable, form: PoseForm, ranges: &[Range], opened: Opened)
         format!("{name}_solved"),
     ]);
     let nominal = (form == PoseForm::Joints).then(|| nominal_pose(&chain, point, &values));
+    let mut outside = Outside::new(found.clone());
+    let checked = Evaluator::new(&chain, vec![point], Exactness::Exact, Quantity::Value, &values);
     let mut before = 0_usize;
     let mut missed: Vec<(usize, String)> = Vec::new();
     let (mut lost, mut singular) = (0_usize, 0_usize);
@@ -70,6 +72,10 @@ pub fn solve(over: &OverTable, form: PoseForm, ranges: &[Range], opened: Opened)
             }
         };
         let solved = solver.solve(&rows.readings, &wanted)?;
+        let inputs = rows.readings.iter().filter(|(id, _)| !solver.joints.contains(id));
+        let set = inputs.map(|(id, own)| (*id, own.as_slice()));
+        let set = set.chain(solver.joints.iter().copied().zip(solved.joints.iter().map(Vec::as_slice)));
+        outside.see(&chain, &set.collect::<Vec<_>>(), &checked)?;
         let words: Vec<&str> = (0..rows.count).map(|row| word(&solved, row)).collect();
         for (row, word) in words.iter().enumerate() {
             singular += usize::from(*word == SINGULAR);
@@ -94,6 +100,7 @@ pub fn solve(over: &OverTable, form: PoseForm, ranges: &[Range], opened: Opened)
         out.push(Column::Kept(Kept::Texts(texts)));
         Ok(out)
     })?;
+    outside.warning(&chain).iter().for_each(terminal::warn);
     if singular > 0 {
         terminal::warn(format_args!(
             "{singular} of {before} poses are reached at a singular place of the joints: the readings jump there. Move these poses a little"

@@ -5,6 +5,7 @@ mod support;
 
 mod compare;
 mod plan;
+mod poses;
 mod refused;
 mod uncertainty;
 mod verify;

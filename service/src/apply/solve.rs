@@ -310,16 +310,17 @@ impl Solver {
             }
             active = going;
         }
-        let places =
-            || (0..rows.len()).map(|place| (target(place), &shown[place * width..(place + 1) * width]));
+        let places: Vec<(&[f64], &[f64])> = (0..rows.len())
+            .map(|place| (target(place), &shown[place * width..(place + 1) * width]))
+            .collect();
         let is_at_limit = |place: usize| {
             let at = at.iter().map(|column| column[place]);
             at.zip(&self.limits).any(|(value, limits)| value <= limits.0 || value >= limits.1)
         };
         Ok(Solved {
-            remaining: places().map(|(wanted, shown)| self.remaining(wanted, shown)).collect(),
+            remaining: places.iter().map(|(wanted, shown)| self.remaining(wanted, shown)).collect(),
             turn: match self.goal {
-                Goal::Pose => places().map(|(wanted, shown)| turn(&wanted[3..], &shown[3..])).collect(),
+                Goal::Pose => places.iter().map(|(wanted, shown)| turn(&wanted[3..], &shown[3..])).collect(),
                 Goal::Direction | Goal::Point => Vec::new(),
             },
             is_singular: least.iter().map(|share| *share < SINGULAR).collect(),

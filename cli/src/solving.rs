@@ -88,9 +88,9 @@ pub fn solve(
     // How the study's data have the readings of a joint.
     let headings = instrument.as_ref().and_then(|instrument| instrument.headings.as_ref());
     let of_study = headings.zip(as_measured.as_ref().map(|(_, source)| *source));
-    let columns: Vec<JointColumn> =
+    let headed: Vec<JointColumn> =
         solver.joints.iter().map(|&joint| joint_column(&chain, joint, &table, of_study, false)).collect();
-    let mut added: Vec<String> = columns.iter().map(|column| column.heading.clone()).collect();
+    let mut added: Vec<String> = headed.iter().map(|column| column.heading.clone()).collect();
     if correction {
         added.extend(solver.joints.iter().map(|&joint| match unit(joint) {
             Measures::Angle => format!("{}_correction [arcsec]", name(joint)),
@@ -124,7 +124,7 @@ pub fn solve(
                 farthest = farthest.max(*remaining);
             }
         }
-        let joints = columns.iter().zip(&solved.joints);
+        let joints = headed.iter().zip(&solved.joints);
         let mut out: Vec<Vec<f64>> =
             joints.map(|(column, own)| own.iter().map(|si| column.packed(*si)).collect()).collect();
         if let Some(ideal) = &mut ideal {

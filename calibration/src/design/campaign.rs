@@ -217,10 +217,15 @@ impl Space {
                 let basis = DMatrix::from_diagonal(&DVector::from_row_slice(prior));
                 let stays =
                     DMatrix::from_fn(p, hidden.len(), |row, at| unseen[(row, at)] / scale[row] / prior[row]);
-                let left = stays.clone().svd(true, false);
+                // What no pose shows is empty where all is shown, and an empty matrix has no parts.
+                let left = (!hidden.is_empty()).then(|| stays.svd(true, false));
                 let limit = |&at: &usize| {
-                    let Some(u) = &left.u else { return 0.0 };
-                    let axes = (0..u.ncols()).filter(|&axis| left.singular_values[axis] > 0.0);
+                    let Some((u, sizes)) =
+                        left.as_ref().and_then(|own| Some((own.u.as_ref()?, &own.singular_values)))
+                    else {
+                        return 0.0;
+                    };
+                    let axes = (0..u.ncols()).filter(|&axis| sizes[axis] > 0.0);
                     prior[at] * axes.map(|axis| u[(at, axis)].powi(2)).sum::<f64>().sqrt()
                 };
                 Self {

@@ -145,7 +145,7 @@ pub fn plan(asked: &Asked<'_>) -> Result<Planned, Refusal> {
         let refused =
             asked.constraints.iter().map(|own| format!("`{}`", own.text)).collect::<Vec<_>>().join(", ");
         return Err(Refusal::Input(format!(
-            "no pose within the limits meets {refused}: widen --range, or loosen --where"
+            "no pose within the limits meets {refused}: widen --range, or loosen --where (a number without a unit is in rad or m)"
         )));
     }
     let way = chain.symbols_of_way(asked.observable);

@@ -59,8 +59,11 @@ fn estimated(asked: &Asked<'_>) -> usize {
     way.iter().filter(|id| asked.chain.symbol(**id).kind == model_core::SymbolKind::Error).count()
 }
 
-/// Two digits, rounded up.
+/// Two digits, rounded up; beyond a million nobody counts.
 fn numbers_up(value: f64) -> String {
+    if value > 1e6 {
+        return "more than a million".to_owned();
+    }
     let power = 10_f64.powf(value.log10().floor() - 1.0).max(1.0);
     format!("{:.0}", (value / power).ceil() * power)
 }

@@ -69,12 +69,12 @@ fn what_is_promised_is_reached() {
     let folder = folder("plan-promise");
     let wanted = ["--for", "*", "--within", "0.3 arcsec", "--observable", "pointing", "--out", "out"];
     let run =
-        plan(&folder, &[&wanted[..2], &["--for", "tilt_?"], &wanted[2..], &["--format", "json"]].concat());
+        plan(&folder, &[&wanted[..2], &["--for", "tilt_*"], &wanted[2..], &["--format", "json"]].concat());
     // `seat` and `roll` do not move this observable.
     assert_eq!(run.code, 1, "{run}");
     let run = plan(
         &folder,
-        &[&["--for", "tilt_?", "--for", "index", "--for", "coll*"], &wanted[2..], &["--format", "json"]]
+        &[&["--for", "tilt_*", "--for", "index", "--for", "coll*"], &wanted[2..], &["--format", "json"]]
             .concat(),
     );
     assert_eq!(run.code, 0, "{run}");
@@ -117,7 +117,20 @@ fn what_is_promised_is_reached() {
 #[test]
 fn the_promise_is_that_of_an_independent_program() {
     let folder = folder("plan-independent");
-    let wanted = ["--for", "*_?", "--within", "1 arcsec", "--observable", "pointing", "--out", "out"];
+    let wanted = [
+        "--for",
+        "tilt_*",
+        "--for",
+        "index",
+        "--for",
+        "collimation",
+        "--within",
+        "1 arcsec",
+        "--observable",
+        "pointing",
+        "--out",
+        "out",
+    ];
     let run = plan(&folder, &[&wanted[..], &["--poses", "12", "--format", "json"]].concat());
     assert_eq!(run.code, 0, "{run}");
     let poses = poses(&folder);
@@ -150,13 +163,21 @@ fn what_no_pose_separates_is_said() {
         &["--for", "index", "--for", "collimation", "--within", "1 arcsec", "--observable", "mark"],
     );
     assert_eq!(run.code, 1, "{run}");
-    insta::assert_snapshot!(run);
+    let said = run.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        said.contains("POSES DO NOT REACH ALL. No number of poses shows 1 wanted error well enough"),
+        "{run}"
+    );
+    assert!(
+        said.contains("No pose separates `index` from other errors. `mark` shows only `index + seat`"),
+        "{run}"
+    );
 }
 
 #[test]
 fn constraints_hold_at_each_pose() {
     let folder = folder("plan-where");
-    let wanted = ["--for", "tilt_?", "--within", "1 arcsec", "--observable", "pointing", "--out", "out"];
+    let wanted = ["--for", "tilt_*", "--within", "1 arcsec", "--observable", "pointing", "--out", "out"];
     let more = ["--where", "elevation + 0.5*azimuth < 90 deg", "--where", "azimuth >= 10 deg"];
     let run = plan(&folder, &[&wanted[..], &more].concat());
     assert_eq!(run.code, 0, "{run}");
@@ -186,18 +207,36 @@ fn refused() {
         [&usual, more].concat()
     };
     let all = [
-        said(&["--for", "tilt_x", "--within", "1 arcsec"]),
-        said(&["--for", "tild_x", "--within", "1 arcsec", "--observable", "pointing"]),
-        said(&["--for", "tilt_x", "--within", "1 mm", "--observable", "pointing"]),
-        said(&["--for", "tilt_x", "--within", "1", "--observable", "pointing"]),
-        said(&["--for", "tilt_x", "--within", "-1 arcsec", "--observable", "pointing"]),
-        said(&own(&["--within", "1 mm"])),
-        said(&own(&["--where", "elevation"])),
-        said(&own(&["--where", "elevatio < 20 deg"])),
-        said(&own(&["--where", "elevation < < 20 deg"])),
-        said(&own(&["--where", "elevation > 85 deg"])),
-        said(&own(&["--where", "elevation < )"])),
-        said(&own(&["--where", "1 < 2"])),
+        (said(&["--for", "tilt_x", "--within", "1 arcsec"]), "say which of `pointing`, `mark` is measured"),
+        (
+            said(&["--for", "tild_x", "--within", "1 arcsec", "--observable", "pointing"]),
+            "did you mean `tilt_x`?",
+        ),
+        (
+            said(&["--for", "tilt_x", "--within", "1 mm", "--observable", "pointing"]),
+            "how surely is `tilt_x` wanted?",
+        ),
+        (
+            said(&["--for", "tilt_x", "--within", "1", "--observable", "pointing"]),
+            "how surely is `tilt_x` wanted?",
+        ),
+        (
+            said(&["--for", "tilt_x", "--within", "0 arcsec", "--observable", "pointing"]),
+            "write one above zero",
+        ),
+        (said(&own(&["--within", "1 mm"])), "no wanted error is of this kind"),
+        (said(&own(&["--where", "elevation"])), "write one comparison"),
+        (said(&own(&["--where", "elevatio < 20 deg"])), "did you mean `elevation`?"),
+        (said(&own(&["--where", "elevation < < 20 deg"])), "write one comparison"),
+        (
+            said(&own(&["--where", "elevation > 85 deg"])),
+            "no pose within the limits meets `elevation > 85 deg`",
+        ),
+        (said(&own(&["--where", "elevation < )"])), "--where"),
+        (said(&own(&["--where", "1 < 2"])), "it names no joint"),
     ];
-    insta::assert_snapshot!(all.join("\n"));
+    for (message, part) in all {
+        let message = message.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(message.contains(part), "{part}: {message}");
+    }
 }

@@ -18,6 +18,7 @@ mod many;
 mod output;
 mod over_table;
 mod paper;
+mod posing;
 mod report_files;
 mod set_up;
 mod sizes;

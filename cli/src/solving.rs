@@ -1,26 +1,32 @@
 //! Readings to set: `apply --solve`.
 
 use model_core::names::listed;
-use model_core::{ObservableId, Quantity as Measures, SymbolId, SymbolKind};
-use service::apply::{self, AsMeasured, Outside, Place, Seen, Solver, in_vectors, numbers};
+use model_core::{Chain, ObservableId, Quantity as Measures, SymbolId, SymbolKind};
+use service::apply::{self, AsMeasured, Outside, Place, REACHED, Search, Seen, Solver, in_vectors, numbers};
 use service::evaluation::{Evaluator, Exactness, Quantity, readings_of};
+use service::ranges::Range;
+use service::readings::{ReadingsTable, factor_of};
 use service::source::observables;
+use study::{Conversion, Headings};
 use tables::formats::ColumnName;
 
 use crate::failure::Failure;
 use crate::over_table::{Opened, OverTable};
 use crate::terminal;
 
-/// What remains of a target is rounding below this, in rad, or in m.
-const REACHED: f64 = 1e-9;
-
 /// Writes the readings of the joints that point where a table of targets wants: in the columns, units and notation of the study's data, where
 /// an instrument file says them and the targets stand in those of what was observed; else under the declared names.
 ///
 /// # Errors
 /// The table or the model has a mistake, or the place cannot be written.
-pub fn solve(over: &OverTable, form: Option<apply::As>, correction: bool) -> Result<(), Failure> {
-    let Opened { chain, values, found, instrument, mut table } = over.open()?;
+pub fn solve(
+    over: &OverTable,
+    form: Option<apply::As>,
+    correction: bool,
+    limits: &[Range],
+    opened: Opened,
+) -> Result<(), Failure> {
+    let Opened { chain, values, found, instrument, mut table } = opened;
     let as_measured = instrument.as_ref().filter(|_| form.is_none()).and_then(|instrument| {
         let source = table.source_of_study()?;
         let seen = AsMeasured::of(instrument, source)?;
@@ -55,7 +61,8 @@ pub fn solve(over: &OverTable, form: Option<apply::As>, correction: bool) -> Res
     let joints: Vec<SymbolId> =
         readings.into_iter().filter(|&id| chain.symbol(id).kind == SymbolKind::Joint).collect();
     let has_starts = table.has(&chain, &joints);
-    let mut solver = Solver::new(&chain, observable, &values, &found, has_starts)?;
+    let search = Search { values: &values, found: &found, limits, has_starts };
+    let mut solver = Solver::new(&chain, observable, search)?;
     table.want(&chain, &solver.given)?;
     if as_measured.is_some() {
         table.want_observed()?;
@@ -67,36 +74,23 @@ pub fn solve(over: &OverTable, form: Option<apply::As>, correction: bool) -> Res
     // What the readings would be without the errors: the correction is the difference.
     let mut without = values.clone();
     chain.symbols_of(SymbolKind::Error).for_each(|error| without[error.index()] = 0.0);
-    let mut ideal =
-        correction.then(|| Solver::new(&chain, observable, &without, &found, true)).transpose()?;
+    let mut ideal = correction
+        .then(|| {
+            Solver::new(
+                &chain,
+                observable,
+                Search { values: &without, found: &found, limits: &[], has_starts: true },
+            )
+        })
+        .transpose()?;
     let unit = |joint: SymbolId| chain.symbol(joint).quantity;
     let name = |joint: SymbolId| &chain.symbol(joint).name;
-    // A reading beyond a turn would be doubted without its unit.
-    let with_unit = |name: &str, quantity: Measures| match quantity {
-        Measures::Number => name.to_owned(),
-        quantity => format!("{name} [{}]", quantity.unit()),
-    };
     // How the study's data have the readings of a joint.
     let headings = instrument.as_ref().and_then(|instrument| instrument.headings.as_ref());
-    let written = |joint: SymbolId| {
-        let (_, source) = as_measured.as_ref()?;
-        headings?.written(*source, joint)
-    };
-    let heading = |joint: SymbolId| match written(joint) {
-        Some((own, (_, unit), conversion)) => {
-            // A column that is there keeps its heading, and a unit in the name is not said again.
-            let is_said = table.header().iter().any(|column| column.full == own)
-                || conversion.notation.is_some()
-                || ColumnName::parse(own).unit().is_some();
-            if is_said { own.to_owned() } else { format!("{own} [{unit}]") }
-        }
-        None => with_unit(name(joint), unit(joint)),
-    };
-    let packed = |joint: SymbolId, si: &f64| match written(joint) {
-        Some((_, (in_si, _), conversion)) => conversion.packed(conversion.plain(*si), in_si),
-        None => *si,
-    };
-    let mut added: Vec<String> = solver.joints.iter().map(|&joint| heading(joint)).collect();
+    let of_study = headings.zip(as_measured.as_ref().map(|(_, source)| *source));
+    let headed: Vec<JointColumn> =
+        solver.joints.iter().map(|&joint| joint_column(&chain, joint, &table, of_study, false)).collect();
+    let mut added: Vec<String> = headed.iter().map(|column| column.heading.clone()).collect();
     if correction {
         added.extend(solver.joints.iter().map(|&joint| match unit(joint) {
             Measures::Angle => format!("{}_correction [arcsec]", name(joint)),
@@ -116,7 +110,7 @@ pub fn solve(over: &OverTable, form: Option<apply::As>, correction: bool) -> Res
             None => seen.vector(&columns, row),
         };
         let wanted: Vec<[f64; 3]> = (0..rows.count).map(target).collect();
-        let solved = solver.solve(&rows.readings, &wanted)?;
+        let solved = solver.solve(&rows.readings, wanted.as_flattened())?;
         let inputs = rows.readings.iter().filter(|(id, _)| !solver.joints.contains(id));
         let set: Vec<(SymbolId, Vec<f64>)> =
             inputs.cloned().chain(solver.joints.iter().copied().zip(solved.joints.clone())).collect();
@@ -130,11 +124,11 @@ pub fn solve(over: &OverTable, form: Option<apply::As>, correction: bool) -> Res
                 farthest = farthest.max(*remaining);
             }
         }
-        let joints = solver.joints.iter().zip(&solved.joints);
+        let joints = headed.iter().zip(&solved.joints);
         let mut out: Vec<Vec<f64>> =
-            joints.map(|(&joint, column)| column.iter().map(|si| packed(joint, si)).collect()).collect();
+            joints.map(|(column, own)| own.iter().map(|si| column.packed(*si)).collect()).collect();
         if let Some(ideal) = &mut ideal {
-            let nominal = ideal.solve(&set, &wanted)?;
+            let nominal = ideal.solve(&set, wanted.as_flattened())?;
             for ((joint, set), nominal) in solver.joints.iter().zip(&solved.joints).zip(&nominal.joints) {
                 let scale =
                     if unit(*joint) == Measures::Angle { 648_000.0 / std::f64::consts::PI } else { 1.0 };
@@ -155,4 +149,59 @@ pub fn solve(over: &OverTable, form: Option<apply::As>, correction: bool) -> Res
         ));
     }
     Ok(())
+}
+
+/// How the readings of a joint are written.
+pub struct JointColumn {
+    /// Its heading.
+    pub heading: String,
+    /// The size of its unit, SI.
+    in_si: f64,
+    /// How its numbers become readings, where a study says it.
+    conversion: Option<Conversion>,
+}
+
+impl JointColumn {
+    /// What stands in the file for a reading in SI.
+    pub fn packed(&self, si: f64) -> f64 {
+        match self.conversion {
+            Some(conversion) => conversion.packed(conversion.plain(si), self.in_si),
+            None => si / self.in_si,
+        }
+    }
+}
+
+/// As the study's data have them, where there are such; else, where they are kept, as the table has them; else in SI.
+pub fn joint_column(
+    chain: &Chain,
+    joint: SymbolId,
+    table: &ReadingsTable<'_>,
+    of_study: Option<(&Headings, usize)>,
+    are_kept: bool,
+) -> JointColumn {
+    let symbol = chain.symbol(joint);
+    let written = of_study.and_then(|(headings, source)| headings.written(source, joint));
+    if let Some((own, (in_si, unit), conversion)) = written {
+        // A column that is there keeps its heading, and a unit in the name is not said again.
+        let is_said = table.header().iter().any(|column| column.full == own)
+            || conversion.notation.is_some()
+            || ColumnName::parse(own).unit().is_some();
+        let heading = if is_said { own.to_owned() } else { format!("{own} [{unit}]") };
+        return JointColumn { heading, in_si, conversion: Some(conversion) };
+    }
+    let there = table.header().iter().find(|column| are_kept && table.means(column, &symbol.name));
+    if let Some(there) = there
+        && let Ok((in_si, _)) = factor_of(there, symbol, table.source())
+    {
+        return JointColumn { heading: there.full.clone(), in_si, conversion: None };
+    }
+    JointColumn { heading: with_unit(&symbol.name, symbol.quantity), in_si: 1.0, conversion: None }
+}
+
+/// A reading beyond a turn would be doubted without its unit.
+fn with_unit(name: &str, quantity: Measures) -> String {
+    match quantity {
+        Measures::Number => name.to_owned(),
+        quantity => format!("{name} [{}]", quantity.unit()),
+    }
 }

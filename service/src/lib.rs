@@ -14,6 +14,7 @@ pub mod export;
 pub mod formulas;
 pub mod instrument;
 pub mod over_memory;
+pub mod plan;
 pub mod poses;
 pub mod ranges;
 pub mod readings;

@@ -1,6 +1,6 @@
 //! Ranges of joints and inputs as users write them: `elevation=10 deg..80 deg`.
 
-use model_core::unit::Measures;
+use model_core::unit::{Measures, Unit};
 use model_core::{Chain, SymbolId, SymbolKind, names};
 use tables::units::{Amount, Plausible};
 
@@ -28,6 +28,20 @@ impl std::str::FromStr for RangeArgument {
             return Err(usage);
         }
         Ok(Self { name, low, high })
+    }
+}
+
+impl RangeArgument {
+    /// The joint or input, as it was typed.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The unit of the upper bound, where one was typed.
+    #[must_use]
+    pub fn unit(&self) -> Option<Unit> {
+        Amount::parse(&self.high).ok()?.unit
     }
 }
 

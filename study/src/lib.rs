@@ -50,6 +50,7 @@ pub use conversion::{Conversion, Notation};
 pub use headings::{Headings, Need, ObservedColumn, Sequence};
 pub use load::{Loaded, Open, OpenTable};
 pub use next::{NextObjects, NextPlaces, NextPoses};
+pub use orientation::Form as OrientationForm;
 pub use plan::{HoldOut, Plan, Search, SourcePlan};
 pub use sample::{Change, Changed, Place, Read, Sample, SampledColumn, WrittenColumn};
 pub use timeless::Timeless;

@@ -12,7 +12,7 @@ use observe::orientation::of_axes;
 
 /// What the columns of an orientation are. All of them say what takes vectors of the body into the frame that it is seen in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Form {
+pub enum Form {
     /// The vector ω of exp(ω×) R₀ with R₀ the orientation by design: what `eval` and `simulate` write.
     FromDesign,
     /// The vector ω of exp(ω×): axis times angle.
@@ -34,7 +34,8 @@ type Keys<'a> = Vec<(&'static str, &'a Option<Column>)>;
 
 impl Form {
     /// The keys of its columns, in order.
-    fn keys(self) -> &'static [&'static str] {
+    #[must_use]
+    pub fn keys(self) -> &'static [&'static str] {
         match self {
             Self::FromDesign => &["rotation_x", "rotation_y", "rotation_z"],
             Self::Vector => &["rx", "ry", "rz"],
@@ -45,6 +46,7 @@ impl Form {
     }
 
     /// What its numbers are.
+    #[must_use]
     pub fn quantity(self) -> Quantity {
         match self {
             Self::FromDesign | Self::Vector | Self::Euler(_) => Quantity::Angle,

@@ -3,17 +3,21 @@
 //! Source: V. V. Fedorov, Theory of Optimal Experiments (1972), chapter 3: exchange of support points; D-optimal makes the
 //! volume of the uncertainties smallest, A-optimal their sum of squares.
 
+pub mod campaign;
 pub(crate) mod discrimination;
+mod exchange;
 pub(crate) mod places;
 
 use std::ops::Range;
 
 use model_core::{Chain, Quantity, SymbolId, SymbolKind};
-use nalgebra::{DMatrix, Matrix3};
+use nalgebra::DMatrix;
 use serde::Serialize;
 
 use fit::{FitError, FitResult, Model};
 use observe::{Observations, Poses};
+
+use exchange::{Aim, Choice, Rule};
 
 pub use discrimination::{Separation, Told};
 pub use places::{Addition, Place, PlaceProposal, Pointing};
@@ -98,28 +102,15 @@ pub fn propose(
     let Some(before) = information.cholesky().map(|factor| factor.inverse()) else {
         return Err(FitError::WrongShape { why: "the information so far is not finite".to_string() });
     };
-    let mut covariance = before.clone();
-    let mut chosen: Vec<usize> = Vec::new();
-    for _ in 0..count.min(rows.len()) {
-        let Some(best) = best(&rows, &covariance, criterion, &chosen) else { break };
-        covariance = with(&covariance, &rows[best], 1.0);
-        chosen.push(best);
-    }
-    for _ in 0..SWEEPS {
-        let mut exchanged = false;
-        for slot in 0..chosen.len() {
-            let without = with(&covariance, &rows[chosen[slot]], -1.0);
-            let others: Vec<usize> =
-                chosen.iter().enumerate().filter(|(other, _)| *other != slot).map(|(_, row)| *row).collect();
-            let Some(best) = best(&rows, &without, criterion, &others) else { continue };
-            exchanged |= best != chosen[slot];
-            chosen[slot] = best;
-            covariance = with(&without, &rows[best], 1.0);
-        }
-        if !exchanged {
-            break;
-        }
-    }
+    let aim = match criterion {
+        Criterion::D => Aim::Volume,
+        Criterion::A => Aim::Sum,
+    };
+    let rule = Rule { rows: &rows, aim: &aim, often: OFTEN };
+    let mut choice = Choice::new(before.clone());
+    choice.grow(&rule, count.min(rows.len()));
+    (0..SWEEPS).any(|_| !choice.exchange(&rule));
+    let Choice { chosen, covariance } = choice;
     let joints: Vec<SymbolId> = joints(chain, &candidates);
     let value =
         |id: &SymbolId, row: usize| candidates.column(*id).and_then(|column| column.get(row)).copied();
@@ -131,55 +122,6 @@ pub fn propose(
     let uncertainties = uncertainties.collect();
     let joints = joints.iter().map(|id| chain.symbol(*id).name.clone()).collect();
     Ok(Proposal { criterion, joints, poses, uncertainties })
-}
-
-/// The candidate that gains most, of those that are not [`OFTEN`] among the chosen ones.
-fn best(
-    rows: &[DMatrix<f64>],
-    covariance: &DMatrix<f64>,
-    criterion: Criterion,
-    chosen: &[usize],
-) -> Option<usize> {
-    let gain = |row: &DMatrix<f64>| {
-        let spread = row * covariance;
-        let own = small(&(&spread * row.transpose()));
-        match criterion {
-            Criterion::D => own.determinant(),
-            Criterion::A => {
-                let m = row.nrows();
-                let gain = |inverse: Matrix3<f64>| {
-                    (inverse.view((0, 0), (m, m)) * (&spread * spread.transpose())).trace()
-                };
-                // A pose at which nothing can be computed is no candidate.
-                own.try_inverse().map_or(f64::NAN, gain)
-            }
-        }
-    };
-    let may_come = |at: usize| chosen.iter().filter(|&&row| row == at).count() < OFTEN;
-    let gains = rows.iter().enumerate().filter(|(at, _)| may_come(*at)).map(|(at, row)| (at, gain(row)));
-    gains.filter(|(_, gain)| gain.is_finite()).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(at, _)| at)
-}
-
-/// 1 + M as a 3 × 3 matrix, whatever the number of components.
-fn small(matrix: &DMatrix<f64>) -> Matrix3<f64> {
-    let mut small = Matrix3::identity();
-    for row in 0..matrix.nrows().min(3) {
-        for column in 0..matrix.ncols().min(3) {
-            small[(row, column)] += matrix[(row, column)];
-        }
-    }
-    small
-}
-
-/// The covariance with a pose's rows added (sign 1) or taken out (sign −1).
-fn with(covariance: &DMatrix<f64>, row: &DMatrix<f64>, sign: f64) -> DMatrix<f64> {
-    let spread = row * covariance;
-    let own = small(&(&spread * row.transpose() * sign));
-    let m = row.nrows();
-    match own.try_inverse() {
-        Some(inverse) => covariance - spread.transpose() * inverse.view((0, 0), (m, m)) * spread * sign,
-        None => covariance.clone(),
-    }
 }
 
 /// The joints that have readings.

@@ -4,4 +4,4 @@ mod designer;
 mod options;
 
 pub use designer::designed;
-pub use options::DesignerArguments;
+pub use options::{DesignerArguments, positive};

@@ -109,7 +109,7 @@ pub fn at_observable(flag: &str, text: &str, name: &str, kind: ObservableKind) -
 }
 
 /// A quantity above zero, SI; with a unit, so that nobody takes arc seconds for radians.
-fn positive(text: &str, quantity: Quantity, zero: bool) -> Result<f64, String> {
+pub fn positive(text: &str, quantity: Quantity, zero: bool) -> Result<f64, String> {
     let amount = Amount::parse(text).map_err(|error| error.to_string())?;
     if amount.unit.is_none() && quantity != Quantity::Number {
         return Err(format!("`{text}` has no unit; write one, as in `{text} {}`", likely(quantity)));

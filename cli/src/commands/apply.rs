@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use model_core::{Chain, Quantity as Measures};
 use service::Instrument;
-use service::apply::{self, AsMeasured, Beside, Correction};
+use service::apply::{self, AsMeasured, Beside, Correction, PoseForm};
+use service::ranges::{self, RangeArgument};
 use service::readings::ReadingsTable;
 use tables::units;
 
@@ -17,7 +18,7 @@ use crate::output;
 #[cfg(feature = "point-clouds")]
 use crate::over_table::Model;
 use crate::over_table::{Opened, OverTable};
-use crate::{solving, table_files, terminal};
+use crate::{posing, solving, table_files, terminal};
 
 /// Correct new data with a calibrated model.
 ///
@@ -33,6 +34,8 @@ use crate::{solving, table_files, terminal};
 /// of the study's data, with the angle or distance that remains. Columns of the joints in the input
 /// are where the search starts; without any it starts from the nearest of poses spread over the ranges that the model was
 /// found over.
+///
+/// With --solve --pose it does so for whole poses of a robot's hand, and says of each row whether the pose is reached.
 ///
 /// With a point cloud, a .las or .laz file whose coordinates were computed without the errors, it moves every point to where the
 /// errors have it and keeps every other byte. Readings stand in extra dimensions of the points, or in a table by GPS time.
@@ -56,6 +59,14 @@ pub struct Arguments {
     /// Find the readings of the joints that point at what the table wants
     #[arg(long)]
     solve: bool,
+    /// With --solve: the table wants whole poses of a body with an observed point, `<observable>_x`, `_y`, `_z` and an orientation: quaternion
+    /// (`_qw`, `_qx`, `_qy`, `_qz`), matrix (`_r11` to `_r33`), vector (`_rx`, `_ry`, `_rz`), three angles by their axes, as euler-zyx (`_e1`,
+    /// `_e2`, `_e3`); or joints: a program of readings for an instrument without errors
+    #[arg(long, value_name = "FORM", requires = "solve", conflicts_with_all = ["form", "correction"])]
+    pose: Option<PoseForm>,
+    /// With --solve: limits of a joint, as "q2=-120 deg..0 deg" (may be given several times)
+    #[arg(long, value_name = "joint=lo..hi", requires = "solve")]
+    range: Vec<RangeArgument>,
     /// Of a point cloud: the readings that its points have not, in a .csv or .parquet file by GPS time
     #[arg(long, value_name = "TABLE")]
     readings: Option<PathBuf>,
@@ -123,7 +134,15 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         )));
     }
     if arguments.solve {
-        solving::solve(&arguments.table, arguments.form.map(apply::As::from), arguments.correction)?
+        let opened = arguments.table.open()?;
+        let limits = ranges::of_chain(&opened.chain, &arguments.range, &terminal::warn)?;
+        match arguments.pose {
+            Some(pose) => posing::solve(&arguments.table, pose, &limits, opened)?,
+            None => {
+                let form = arguments.form.map(apply::As::from);
+                solving::solve(&arguments.table, form, arguments.correction, &limits, opened)?;
+            }
+        }
     } else {
         correct(arguments)?
     }

@@ -15,6 +15,7 @@ pub mod generate;
 pub mod identify;
 mod init;
 mod manual;
+mod plan;
 pub mod simulate;
 mod verify;
 
@@ -72,6 +73,7 @@ commands! {
     Eval => eval,
     Calibrate => calibrate,
     Apply => apply,
+    Plan => plan,
     Compare => compare,
     Verify => verify,
     Export => export,

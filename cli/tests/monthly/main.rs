@@ -4,6 +4,8 @@
 mod support;
 
 mod compare;
+mod plan;
+mod poses;
 mod refused;
 mod uncertainty;
 mod verify;

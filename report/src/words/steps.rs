@@ -7,6 +7,7 @@ use super::places::told_places;
 use super::rivals::{Rival, rival};
 use super::step::Step;
 use crate::shell::shell_word;
+use calibration::design::Separation;
 use calibration::diagnose::few::WANTED;
 use calibration::diagnose::{Caution, Diagnosis, EffectFound, Ended, Relation, Verdict};
 
@@ -223,12 +224,13 @@ fn measure(diagnosis: &Diagnosis) -> Vec<Step> {
             ),
             command: None,
         });
-    } else if diagnosis.separating.iter().any(|separation| !separation.never.is_empty()) {
-        steps.push(Step {
-            title: "More measurements cannot separate these causes".to_owned(),
-            text: "Inspect the instrument for each cause.".to_owned(),
-            command: None,
-        });
+    }
+    if let Some(text) = inspections(diagnosis) {
+        let title = match separating {
+            0 => "More measurements cannot separate these causes",
+            _ => "More measurements cannot separate the other causes",
+        };
+        steps.push(Step { title: title.to_owned(), text, command: None });
     }
     if !diagnosis.next_poses.is_empty() {
         steps.push(Step {
@@ -248,6 +250,24 @@ fn measure(diagnosis: &Diagnosis) -> Vec<Step> {
         });
     }
     steps
+}
+
+/// Inspections that a step names.
+const INSPECTIONS: usize = 3;
+
+/// The inspections that separate causes which no pose within the ranges does, the likeliest first, each once.
+fn inspections(diagnosis: &Diagnosis) -> Option<String> {
+    let apart: Vec<&Separation> =
+        diagnosis.separating.iter().filter(|separation| !separation.never.is_empty()).collect();
+    let is_meant = |name: &String| apart.iter().any(|own| *name == own.effect || own.never.contains(name));
+    let mut told = vec!["Inspect the instrument for each cause."];
+    for cause in diagnosis.effects.iter().flat_map(|effect| &effect.causes) {
+        let is_new = !cause.check.is_empty() && !told.contains(&cause.check);
+        if is_meant(&cause.name) && is_new && told.len() <= INSPECTIONS {
+            told.push(cause.check);
+        }
+    }
+    (!apart.is_empty()).then(|| told.join(" "))
 }
 
 /// Whether the data show no error, alone or together with others, and no effect.

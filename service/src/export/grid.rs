@@ -6,7 +6,7 @@
 use model_core::{Meaning, Quantity, SymbolId, SymbolKind};
 
 use super::subject::{Difference, Shown, Subject};
-use crate::apply::Solver;
+use crate::apply::{Search, Solver};
 use crate::refusal::Refusal;
 
 /// Steps of a grid of one axis and of two: each try has twice as many as the one before.
@@ -136,9 +136,12 @@ impl Axes {
         readings.extend(self.either.map(|(id, _)| (id, column(either))));
         readings.sort_by_key(|(id, _)| *id);
         let wanted = subject.shown_at(&readings, places.len(), &subject.values)?;
-        let mut solver =
-            Solver::new(&subject.chain, subject.observable, &subject.without_errors(), &[], true)?;
-        let solved = solver.solve(&readings, &wanted)?;
+        let mut solver = Solver::new(
+            &subject.chain,
+            subject.observable,
+            Search { values: &subject.without_errors(), found: &[], limits: &[], has_starts: true },
+        )?;
+        let solved = solver.solve(&readings, wanted.as_flattened())?;
         let order: Vec<usize> =
             self.joints.iter().filter_map(|(id, _)| solver.joints.iter().position(|own| own == id)).collect();
         let correction = |(node, place): (usize, &Vec<f64>)| {

@@ -14,6 +14,7 @@ mod doubts;
 mod effects;
 mod estimated;
 mod format;
+mod frozen;
 mod headings;
 mod inputs;
 mod kind;
@@ -47,6 +48,7 @@ mod written;
 
 pub use column_plan::ColumnAt;
 pub use conversion::{Conversion, Notation};
+pub use frozen::{Frozen, FrozenTerm};
 pub use headings::{Headings, Need, ObservedColumn, Sequence};
 pub use load::{Loaded, Open, OpenTable};
 pub use next::{NextObjects, NextPlaces, NextPoses};

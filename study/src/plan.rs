@@ -7,6 +7,7 @@ use toml::Spanned;
 use super::amount::si;
 use super::column_plan::{ColumnPlan, column_plan};
 use super::estimated::{estimable, matching};
+use super::frozen::Frozen;
 use super::mistakes::{Gathered, Outcome, Several, every, mistake, plain, unknown, within};
 use super::next::NextPoses;
 use super::observed::{ObservedColumns, observed_columns};
@@ -40,6 +41,8 @@ pub struct Plan {
     pub plausible: Vec<(SymbolId, f64)>,
     /// What to look for.
     pub search: Search,
+    /// The terms of the model, where they are given and not looked for.
+    pub frozen: Option<Frozen>,
     /// How to judge on data that no stage saw.
     pub hold_out: HoldOut,
     /// Where to propose to measure next.
@@ -191,6 +194,10 @@ impl Study {
             sources.as_ref().map(|sources| sources.iter().map(|source| source.observable).collect());
         // What the catalogue holds depends on what was observed.
         let search = mistakes.take(self.search(&chain, observables.as_deref()));
+        let frozen = match (&search, &observables) {
+            (Some(search), Some(observables)) => mistakes.take(self.frozen(&chain, observables, search)),
+            _ => None,
+        };
         if let (Some(search), Some(fit), Some(observables), Some(format)) =
             (&search, &fit, &observables, &format)
         {
@@ -204,6 +211,7 @@ impl Study {
             Some(sources),
             Some(mut fit),
             Some(search),
+            Some(frozen),
             Some(hold_out),
             Some(next),
             Some(format),
@@ -211,10 +219,13 @@ impl Study {
             Some(places),
             Some(sizes),
             Some(plausible),
-        ) = (sources, fit, search, hold_out, next, format, sigma, places, sizes, plausible)
+        ) = (sources, fit, search, frozen, hold_out, next, format, sigma, places, sizes, plausible)
         else {
             unreachable!("what is missing comes with a mistake")
         };
+        if let Some(frozen) = &frozen {
+            frozen.hold(&chain, &mut fit);
+        }
         fit.noise.sigma = sigma;
         fit.sizes = sizes;
         self.with_objects(&sources, &mut fit)?;
@@ -230,6 +241,7 @@ impl Study {
             sources,
             fit,
             search,
+            frozen,
             hold_out,
             next,
             places,

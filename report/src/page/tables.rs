@@ -16,7 +16,7 @@ const LISTED: usize = 200;
 const OPEN: usize = 3;
 
 /// A table that scrolls by itself where it is broad.
-fn scrolled(name: &str, table: &Markup) -> Markup {
+pub(super) fn scrolled(name: &str, table: &Markup) -> Markup {
     html! { div.scroll tabindex="0" role="region" aria-label=(name) { (table) } }
 }
 
@@ -138,6 +138,7 @@ pub fn details(reported: &Reported<'_>) -> Markup {
         section id="details" {
             h2 { "Details" }
             (amended(reported))
+            (super::frozen::frozen(diagnosis))
             (super::contest::contest(diagnosis))
             details { summary { "Noise" } ul { @for line in words::noise(diagnosis) { li { (line) } } } }
             (poses(diagnosis))

@@ -8,6 +8,7 @@ use super::amount::si;
 use super::column_plan::{ColumnPlan, column_plan};
 use super::estimated::{estimable, matching};
 use super::frozen::Frozen;
+use super::hold_out::HoldOut;
 use super::mistakes::{Gathered, Outcome, Several, every, mistake, plain, unknown, within};
 use super::next::NextPoses;
 use super::observed::{ObservedColumns, observed_columns};
@@ -94,19 +95,6 @@ impl Plan {
         plan.sources.iter_mut().for_each(|source| source.paths = paths.to_vec());
         plan
     }
-}
-
-/// How to judge on data that no stage saw.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct HoldOut {
-    /// Into how many parts the observations are divided.
-    pub folds: usize,
-    /// A second file instead, relative to the study.
-    pub file: Option<String>,
-    /// Columns whose rows with the same labels are held out together, and are one unit to the ±.
-    pub together: Vec<String>,
-    /// Seed of the division.
-    pub seed: u64,
 }
 
 /// Files that observe one thing in one way.
@@ -436,14 +424,6 @@ impl Study {
         };
         let rest = FitOptions::for_chain(chain);
         Ok(FitOptions { estimate, start, robust: self.fit.robust, noise, max_iterations, ..rest })
-    }
-
-    fn held_out(&self) -> Outcome<HoldOut> {
-        let folds = &self.hold_out.folds;
-        within(folds.span(), "folds", *folds.get_ref(), 2..=1000)?;
-        let folds = usize::try_from(*folds.get_ref()).unwrap_or(usize::MAX);
-        let (file, together) = (self.hold_out.file.clone(), self.hold_out.together.0.clone());
-        Ok(HoldOut { folds, file, together, seed: self.hold_out.seed })
     }
 }
 

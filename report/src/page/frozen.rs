@@ -1,6 +1,5 @@
 //! A frozen model behind a fold: its terms, and what one less or more does to held-out rows.
 
-use super::tables::scrolled;
 use crate::words::frozen::{Trial, as_it_is, gains, held, others, terms};
 use calibration::diagnose::Diagnosis;
 use maud::{Markup, html};
@@ -23,15 +22,14 @@ pub fn frozen(diagnosis: &Diagnosis) -> Markup {
 }
 
 fn table(name: &str, [what, is, held_out]: [&str; 3], trials: &[Trial]) -> Markup {
-    scrolled(
-        name,
-        &html! {
+    html! {
+        div.scroll tabindex="0" role="region" aria-label=(name) {
             table {
                 thead { tr { th scope="col" { (what) } th scope="col" { (is) } th.number scope="col" { (held_out) } } }
                 tbody {
                     @for own in trials { tr { th scope="row" { (own.what) } td { (own.is) } td.number { (own.held_out) } } }
                 }
             }
-        },
-    )
+        }
+    }
 }

@@ -16,7 +16,7 @@ const LISTED: usize = 200;
 const OPEN: usize = 3;
 
 /// A table that scrolls by itself where it is broad.
-pub(super) fn scrolled(name: &str, table: &Markup) -> Markup {
+fn scrolled(name: &str, table: &Markup) -> Markup {
     html! { div.scroll tabindex="0" role="region" aria-label=(name) { (table) } }
 }
 

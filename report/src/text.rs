@@ -37,6 +37,7 @@ pub fn as_text(reported: &Reported<'_>, layout: Layout) -> Screen {
     page.answers(&answers, diagnosis);
     page.residuals(diagnosis);
     page.values(diagnosis);
+    page.frozen(diagnosis);
     if layout.verbose {
         page.effects(diagnosis);
         page.list("noise", &words::noise(diagnosis));
@@ -226,6 +227,30 @@ impl Page {
             let _ = writeln!(self.text, "  {:width$}  {}{found}", line.what, line.estimate);
         }
         estimates.notes.iter().for_each(|note| self.say("  ", &format!("{}.", sentence_case(note))));
+    }
+
+    /// The terms of a frozen model, and what one less or more does.
+    fn frozen(&mut self, diagnosis: &Diagnosis) {
+        let Some(model) = diagnosis.frozen.as_ref().filter(|_| diagnosis.verdict.is_usable()) else { return };
+        let (terms, others) = (words::frozen::terms(model), words::frozen::others(model));
+        self.trials("Terms, with the held-out RMS without each", &terms);
+        let notes = [words::frozen::as_it_is(model), words::frozen::held(model)];
+        notes.iter().flatten().for_each(|note| self.say("  ", note));
+        if self.layout.verbose && !others.is_empty() {
+            self.trials("Other effects, with the held-out RMS with each", &others);
+        }
+        words::frozen::gains(model).iter().for_each(|note| self.say("  ", note));
+    }
+
+    fn trials(&mut self, title: &str, trials: &[words::frozen::Trial]) {
+        self.heading(title);
+        let longest = |of: fn(&words::frozen::Trial) -> &String| {
+            trials.iter().map(|own| of(own).chars().count()).max().unwrap_or_default()
+        };
+        let (what, is) = (longest(|own| &own.what), longest(|own| &own.is));
+        for own in trials {
+            let _ = writeln!(self.text, "  {:what$}  {:is$}  {:>8}", own.what, own.is, own.held_out);
+        }
     }
 
     fn effects(&mut self, diagnosis: &Diagnosis) {

@@ -7,6 +7,8 @@ use toml::Spanned;
 use super::amount::si;
 use super::column_plan::{ColumnPlan, column_plan};
 use super::estimated::{estimable, matching};
+use super::frozen::Frozen;
+use super::hold_out::HoldOut;
 use super::mistakes::{Gathered, Outcome, Several, every, mistake, plain, unknown, within};
 use super::next::NextPoses;
 use super::observed::{ObservedColumns, observed_columns};
@@ -40,6 +42,8 @@ pub struct Plan {
     pub plausible: Vec<(SymbolId, f64)>,
     /// What to look for.
     pub search: Search,
+    /// The terms of the model, where they are given and not looked for.
+    pub frozen: Option<Frozen>,
     /// How to judge on data that no stage saw.
     pub hold_out: HoldOut,
     /// Where to propose to measure next.
@@ -91,19 +95,6 @@ impl Plan {
         plan.sources.iter_mut().for_each(|source| source.paths = paths.to_vec());
         plan
     }
-}
-
-/// How to judge on data that no stage saw.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct HoldOut {
-    /// Into how many parts the observations are divided.
-    pub folds: usize,
-    /// A second file instead, relative to the study.
-    pub file: Option<String>,
-    /// Columns whose rows with the same labels are held out together, and are one unit to the ±.
-    pub together: Vec<String>,
-    /// Seed of the division.
-    pub seed: u64,
 }
 
 /// Files that observe one thing in one way.
@@ -191,6 +182,10 @@ impl Study {
             sources.as_ref().map(|sources| sources.iter().map(|source| source.observable).collect());
         // What the catalogue holds depends on what was observed.
         let search = mistakes.take(self.search(&chain, observables.as_deref()));
+        let frozen = match (&search, &observables) {
+            (Some(search), Some(observables)) => mistakes.take(self.frozen(&chain, observables, search)),
+            _ => None,
+        };
         if let (Some(search), Some(fit), Some(observables), Some(format)) =
             (&search, &fit, &observables, &format)
         {
@@ -204,6 +199,7 @@ impl Study {
             Some(sources),
             Some(mut fit),
             Some(search),
+            Some(frozen),
             Some(hold_out),
             Some(next),
             Some(format),
@@ -211,10 +207,13 @@ impl Study {
             Some(places),
             Some(sizes),
             Some(plausible),
-        ) = (sources, fit, search, hold_out, next, format, sigma, places, sizes, plausible)
+        ) = (sources, fit, search, frozen, hold_out, next, format, sigma, places, sizes, plausible)
         else {
             unreachable!("what is missing comes with a mistake")
         };
+        if let Some(frozen) = &frozen {
+            frozen.hold(&chain, &mut fit);
+        }
         fit.noise.sigma = sigma;
         fit.sizes = sizes;
         self.with_objects(&sources, &mut fit)?;
@@ -230,6 +229,7 @@ impl Study {
             sources,
             fit,
             search,
+            frozen,
             hold_out,
             next,
             places,
@@ -424,14 +424,6 @@ impl Study {
         };
         let rest = FitOptions::for_chain(chain);
         Ok(FitOptions { estimate, start, robust: self.fit.robust, noise, max_iterations, ..rest })
-    }
-
-    fn held_out(&self) -> Outcome<HoldOut> {
-        let folds = &self.hold_out.folds;
-        within(folds.span(), "folds", *folds.get_ref(), 2..=1000)?;
-        let folds = usize::try_from(*folds.get_ref()).unwrap_or(usize::MAX);
-        let (file, together) = (self.hold_out.file.clone(), self.hold_out.together.0.clone());
-        Ok(HoldOut { folds, file, together, seed: self.hold_out.seed })
     }
 }
 

@@ -50,6 +50,9 @@ pub struct Study {
     /// What to look for.
     #[serde(default)]
     pub(super) search: SearchTable,
+    /// Which model to fit, where it is not to be looked for.
+    #[serde(default)]
+    pub(super) model: ModelTable,
     /// Effects that the catalogue does not have.
     #[serde(default)]
     pub(super) effect: Vec<OwnEffect>,
@@ -328,6 +331,14 @@ impl Default for SearchTable {
             lines: Table::new(),
         }
     }
+}
+
+/// `[model]`.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct ModelTable {
+    /// Exactly these are fitted.
+    pub terms: Option<Spanned<Vec<Spanned<String>>>>,
 }
 
 /// `[hold_out]`.

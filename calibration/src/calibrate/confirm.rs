@@ -67,7 +67,7 @@ fn of_declaration<'a>(
 }
 
 /// Figures of rows left out: of whole objects where nothing else can be.
-fn figures(
+pub(super) fn figures(
     whole: &Context<'_>,
     before: &FitResult,
     round: &Round<'_>,

@@ -12,6 +12,7 @@ mod amendment;
 mod choice;
 mod confirm;
 mod every_row;
+mod frozen;
 mod functions;
 mod heard;
 pub(crate) mod held_out;
@@ -20,6 +21,7 @@ mod outliers;
 mod places;
 mod rounds;
 mod stretches;
+mod trials;
 mod weighed;
 mod whole_objects;
 
@@ -29,7 +31,7 @@ use model_core::{Chain, Mistakes};
 
 use crate::amend::{AmendError, amend, with_quantities_of};
 use crate::diagnose::shown::{DRAWN, Shown};
-use crate::diagnose::{Confirmed, Diagnosis, Trace, Unsearched, diagnose, rounding, trace};
+use crate::diagnose::{Confirmed, Diagnosis, FrozenModel, Trace, Unsearched, diagnose, rounding, trace};
 use crate::misread::{Misread, implausible, misread};
 use crate::search::SearchError;
 use crate::search::context::Context;
@@ -160,11 +162,20 @@ pub fn calibrate_telling(
         // What a failed fit leaves, or one of misread columns, is no residual to search.
         return unusable(&whole, first, misread);
     }
+    if let Some(frozen) = &request.plan.frozen {
+        let before = first.fit.clone();
+        let fitted = frozen::fitted(&whole, frozen, &first)?;
+        if !fitted.fit.outcome.is_usable() {
+            return unusable(&whole, fitted, None);
+        }
+        let (judged, model) = frozen::judged(&whole, &before, frozen, fitted)?;
+        return told(before, Chosen::of(whole.clone(), judged), Some(model));
+    }
     let mut before = first.fit.clone();
     let round = Round::at(&whole, first)?;
     // What rounding leaves has a structure of its own; there is nothing to search in it.
     let is_rounding = rounding(request.observations, &before).is_some();
-    let Chosen { whole, judged, as_good, contest } = if is_rounding {
+    let chosen = if is_rounding {
         Chosen::of(whole.clone(), judged(&whole, &before, round)?)
     } else {
         let found = searched(&whole, &before, round, &loops[0])?;
@@ -176,9 +187,20 @@ pub fn calibrate_telling(
             }
         }
     };
+    told(before, chosen, None)
+}
+
+/// What a search, or a model that is given, comes to.
+fn told(
+    before: FitResult,
+    chosen: Chosen<'_>,
+    frozen: Option<FrozenModel>,
+) -> Result<Calibration, CalibrateError> {
+    let Chosen { whole, judged, as_good, contest } = chosen;
+    let request = whole.request;
     let Judged { round, held_out, rms, left_out } = judged;
     let confirmed = Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, left_out };
-    let diagnosis = Diagnosis { contest, ..diagnose(&whole, &before, &round.fitted, Ok(confirmed))? };
+    let diagnosis = Diagnosis { contest, frozen, ..diagnose(&whole, &before, &round.fitted, Ok(confirmed))? };
     let drawn = Shown::of(request.observations, &round.fitted.fit, DRAWN).rows;
     let traces = trace::traces(&whole, &round, &drawn)?;
     let mut chain = round.fitted.chain;

@@ -151,6 +151,10 @@ pub(super) struct Others {
 
 /// What each accepted effect could be instead.
 pub(super) fn others(last: &Round<'_>) -> Vec<Others> {
+    if last.is_given() {
+        let none = |_| Others { alike: Vec::new(), competing: Vec::new(), behind: Vec::new() };
+        return last.fitted.found.iter().map(none).collect();
+    }
     let accepted = last.accepted_sets();
     let mut state = State::declared(&last.search.problem, |_| true);
     let blocks = SetColumns::of(&last.search.problem, &last.sets);

@@ -13,6 +13,7 @@ mod errors;
 mod every_row;
 pub mod few;
 mod foretold;
+mod frozen;
 mod function;
 mod harmonics;
 mod instrument;
@@ -72,6 +73,7 @@ pub use effects::{Cause, EffectFound, Relation, Side};
 pub use ended::Ended;
 pub use errors::{ErrorFound, Estimable, Part};
 pub use every_row::{EveryRow, Foretold, SharedByFiles};
+pub use frozen::{FrozenModel, OtherTerm, TermFitted};
 pub use function::Form;
 pub use harmonics::Harmonics;
 pub use instrument::{
@@ -137,6 +139,9 @@ pub struct Diagnosis {
     pub separating: Vec<Separation>,
     /// The effects that were accepted, in the order they came in.
     pub effects: Vec<EffectFound>,
+    /// What the terms come to of a model that the study gives.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frozen: Option<FrozenModel>,
     /// Who competed to explain what the declaration leaves, where a contest was held.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub contest: Vec<Hypothesis>,
@@ -301,6 +306,7 @@ pub(crate) fn diagnose(
         precision,
         noise,
         effects: found.effects,
+        frozen: None,
         contest: Vec::new(),
         search: found.search,
         remaining: found.remaining,
@@ -386,7 +392,7 @@ fn cautions(found: &Found, whole: &Context<'_>, rms: &[BeforeAfter]) -> Vec<Caut
     if !found.effects.is_empty() {
         cautions.extend(foretold::of_rms(rms));
     }
-    if found.effects.len() >= whole.options.most {
+    if found.effects.len() >= whole.options.most && whole.request.plan.frozen.is_none() {
         cautions.push(Caution::LimitOfEffects { effects: found.effects.len() });
     }
     cautions

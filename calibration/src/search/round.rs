@@ -21,6 +21,11 @@ const SURE: f64 = 3.0;
 pub(crate) trait Explains: Send + Sync {
     /// The effects that explain those of the rows that stay, one of these a row.
     fn of_rows(&self, stay: &[bool]) -> Vec<EffectId>;
+
+    /// Whether it does so whatever the rows: somebody gave the effects.
+    fn is_given(&self) -> bool {
+        false
+    }
 }
 
 /// A fit, and the search that starts from it.
@@ -49,6 +54,11 @@ impl<'a> Round<'a> {
     /// The same, with its effects by `explains`.
     pub fn explained_by(self, explains: Arc<dyn Explains>) -> Self {
         Self { explained_by: Some(explains), ..self }
+    }
+
+    /// Whether somebody gave its effects: then nothing competes with them.
+    pub fn is_given(&self) -> bool {
+        self.explained_by.as_ref().is_some_and(|explains| explains.is_given())
     }
 
     /// Whether there are rows enough to tell structure of what is left from noise.

@@ -15,6 +15,7 @@ mod few;
 mod few_exact;
 mod figures;
 mod frames;
+mod frozen;
 mod instruments;
 mod levelled;
 mod many;

@@ -4,7 +4,9 @@
 mod chosen;
 mod members;
 mod names;
+mod terms;
 
 pub use chosen::chosen;
 pub use members::catalogue;
 pub use names::{Kind as MountKind, Name, PointingTerm, PointingTerms, Published, known_names, published};
+pub use terms::{NoTerm, Term, terms};

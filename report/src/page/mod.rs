@@ -6,6 +6,7 @@ mod card;
 mod chain;
 mod contest;
 mod distribution;
+mod frozen;
 mod map;
 mod pictures;
 mod rows;

@@ -138,6 +138,7 @@ pub fn details(reported: &Reported<'_>) -> Markup {
         section id="details" {
             h2 { "Details" }
             (amended(reported))
+            (super::frozen::frozen(diagnosis))
             (super::contest::contest(diagnosis))
             details { summary { "Noise" } ul { @for line in words::noise(diagnosis) { li { (line) } } } }
             (poses(diagnosis))

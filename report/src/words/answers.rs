@@ -4,6 +4,7 @@ use super::better::better;
 use super::causes::each_once;
 use super::columns::{self, implausible_values, misread};
 use super::effects::{chance_of_all, headline, moves, place};
+use super::frozen::fitted;
 use super::left::function_form;
 use super::numbers::{short, times};
 use super::rivals::rival;
@@ -90,7 +91,7 @@ pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) -> An
             .flatten()
             .collect::<Vec<_>>()
             .join(" "),
-        chance: if usable { chance_of_all(&effects, diagnosis) } else { None },
+        chance: if usable && diagnosis.frozen.is_none() { chance_of_all(&effects, diagnosis) } else { None },
         what,
         causes,
         places: once(effects.iter().map(|effect| place(effect, diagnosis))),
@@ -157,6 +158,7 @@ fn badge(diagnosis: &Diagnosis) -> String {
         _ if fits_otherwise(diagnosis) => "Likely read wrongly".to_owned(),
         _ if let Some(rival) = rival(diagnosis) => rival.badge.to_owned(),
         _ if is_worse(diagnosis) => "Worse on held-out data".to_owned(),
+        _ if let Some((badge, _)) = fitted(diagnosis) => badge.to_owned(),
         _ if is_hardly_repeated(diagnosis) && count == 1 => "Possible effect, not confirmed".to_owned(),
         _ if is_hardly_repeated(diagnosis) => format!("{count} possible effects, not confirmed"),
         Verdict::Confounded if let [effect] = diagnosis.effects.as_slice() => match effect.causes.len() {
@@ -225,6 +227,9 @@ fn happened(diagnosis: &Diagnosis) -> String {
     }
     if is_worse(diagnosis) {
         return "The effects fit these rows, but not the held-out rows.".to_owned();
+    }
+    if let Some((_, happened)) = fitted(diagnosis) {
+        return happened;
     }
     if is_hardly_repeated(diagnosis) {
         return match count {

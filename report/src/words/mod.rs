@@ -12,6 +12,7 @@ mod components;
 pub mod contest;
 mod effects;
 mod errors;
+pub mod frozen;
 mod hidden;
 mod left;
 mod measure;

@@ -5,6 +5,7 @@
 //! sight runs as theirs does: azimuth (or hour angle) from y through x, elevation (or declination) from the xy plane
 //! towards z. Signs are not part of a name: they follow each field's own conventions. Those of TPOINT are its own.
 
+mod errors;
 mod mount;
 mod pointing;
 mod scanner;
@@ -15,6 +16,7 @@ use model_core::algebra::{BasisFunction, Poly};
 use model_core::{SymbolId, SymbolKind, TransformKind, syntax};
 
 use crate::candidate::{Effect, Setting, seen};
+pub use errors::names_of_errors;
 pub use mount::Kind;
 use mount::Mount;
 pub use pointing::{PointingTerm, PointingTerms};
@@ -79,14 +81,7 @@ pub fn published() -> Vec<Published> {
 pub fn known_names(setting: &Setting<'_>, effects: &[Effect]) -> Vec<Vec<Name>> {
     let of_slides = effects.iter().map(|effect| slides::name(setting, effect).into_iter().collect());
     let Some(mount) = Mount::of(setting) else { return of_slides.collect() };
-    let shapes: Vec<(Name, Shape)> = published()
-        .into_iter()
-        .filter(|published| published.kind == mount.kind)
-        .filter_map(|published| {
-            let shape = mount.formula(&published)?;
-            Some((Name { field: published.field, name: published.name }, shape))
-        })
-        .collect();
+    let shapes = shapes(&mount);
     let names_of = |effect: &Effect| {
         let own = effect.functions.iter().filter_map(|function| {
             let mut sum = [Poly::zero(), Poly::zero(), Poly::zero()];
@@ -106,6 +101,16 @@ pub fn known_names(setting: &Setting<'_>, effects: &[Effect]) -> Vec<Vec<Name>> 
         names.map(|(name, _)| name.clone()).collect()
     };
     effects.iter().map(names_of).collect()
+}
+
+/// The formulas that were published for such a mount, in its symbols.
+fn shapes(mount: &Mount) -> Vec<(Name, Shape)> {
+    let own = published().into_iter().filter(|published| published.kind == mount.kind);
+    own.filter_map(|published| {
+        let shape = mount.formula(&published)?;
+        Some((Name { field: published.field, name: published.name }, shape))
+    })
+    .collect()
 }
 
 /// A first-order change of what is observed: across, along and in range.

@@ -178,6 +178,8 @@ pub(super) struct Observed {
     /// The columns that name where from.
     #[serde(default)]
     pub station: OneOrMore,
+    pub u: Option<Column>,
+    pub v: Option<Column>,
     pub length: Option<Column>,
     pub radius: Option<Column>,
     pub rotation_x: Option<Column>,
@@ -210,7 +212,7 @@ impl Observed {
     }
 
     /// Every column by its key.
-    pub(super) fn columns(&self) -> [(&'static str, &Option<Column>); 31] {
+    pub(super) fn columns(&self) -> [(&'static str, &Option<Column>); 33] {
         [
             ("x", &self.x),
             ("y", &self.y),
@@ -222,6 +224,8 @@ impl Observed {
             ("cross", &self.cross),
             ("along", &self.along),
             ("range", &self.range),
+            ("u", &self.u),
+            ("v", &self.v),
             ("length", &self.length),
             ("radius", &self.radius),
             ("rotation_x", &self.rotation_x),

@@ -21,6 +21,13 @@ pub enum Measured {
     },
     /// What takes vectors of the body into the frame that it is seen in.
     Orientation(UnitQuaternion<f64>),
+    /// Where a point is in the image of a camera.
+    Pixel {
+        /// Along the rows of pixels.
+        u_px: f64,
+        /// Along the columns of pixels.
+        v_px: f64,
+    },
     /// The length of a wire, or the distance of two points.
     Length {
         /// In metres.
@@ -44,6 +51,7 @@ impl Measured {
             Self::Range { .. }
             | Self::Azimuth { .. }
             | Self::Orientation(_)
+            | Self::Pixel { .. }
             | Self::Length { .. }
             | Self::Readings => None,
         }
@@ -101,6 +109,7 @@ impl Measured {
             | Self::Azimuth { azimuth_rad: number }
             | Self::Length { length_m: number } => number.abs(),
             Self::Orientation(_) => 1.0,
+            Self::Pixel { u_px, v_px } => u_px.abs().max(v_px.abs()),
             Self::Readings => 0.0,
         }
     }

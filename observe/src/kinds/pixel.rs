@@ -1,0 +1,63 @@
+//! Where a camera sees a point that is known row by row, in pixels.
+
+use model_core::Quantity;
+use nalgebra::Vector3;
+
+use super::kind::{Kind, Map, NoiseOf, Predicted, Scale};
+use super::residual::Part;
+use super::written::{Filled, Key, Observes, OfReadings, Written};
+use super::{MOST, Measure, Measured};
+use crate::SiUnit;
+
+pub(super) const KIND: Kind = Kind {
+    predicted: Predicted::Image,
+    scale: |_| Scale::Unseen,
+    map: Some(Map {
+        title: "Over the image",
+        labels: ["u, px", "v, px"],
+        place: |measured| match measured {
+            Measured::Pixel { u_px, v_px } => Some((*u_px, -*v_px)),
+            _ => None,
+        },
+    }),
+    ..Kind::new(
+        &["u", "v"],
+        (SiUnit::PIXEL, [NoiseOf::Pixels; MOST]),
+        Measure::Pixel,
+        &[PIXEL],
+        |rows, to| {
+            rows.each(to, residual, |predicted| Measured::Pixel { u_px: predicted.x, v_px: predicted.y })
+        },
+    )
+};
+
+const PIXEL: Written = Written {
+    name: "pixel",
+    of: Observes::Image,
+    quantity: Quantity::Number,
+    columns: &[&[
+        Key { name: "u", headers: &["u", "pixelx", "px"] },
+        Key { name: "v", headers: &["v", "pixely", "py"] },
+    ]],
+    of_readings: OfReadings::Nothing,
+    is_meant: |_| true,
+    read: |cells| {
+        let depth_m = cells.nominal().z;
+        if depth_m.is_finite() && depth_m <= 0.0 {
+            return Err(format!(
+                "the declared camera has this point {:.4} m behind it, and no camera sees that: is the sign of a joint, the order of the \
+                 columns or the pose of the camera wrong?",
+                -depth_m
+            ));
+        }
+        Ok(Measured::Pixel { u_px: cells.at(0), v_px: cells.at(1) })
+    },
+    filled: Filled::with(|shows| shows.vector().into()),
+};
+
+/// Nothing is seen behind the camera.
+fn residual(measured: &Measured, predicted: &Vector3<f64>) -> Option<[Part; 2]> {
+    let Measured::Pixel { u_px, v_px } = measured else { return None };
+    let seen = |difference: f64| if predicted.z > 0.0 { difference } else { f64::NAN };
+    Some([(seen(u_px - predicted.x), Vector3::x()), (seen(v_px - predicted.y), Vector3::y())])
+}

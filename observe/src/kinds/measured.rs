@@ -23,10 +23,8 @@ pub enum Measured {
     Orientation(UnitQuaternion<f64>),
     /// Where a point is in the image of a camera.
     Pixel {
-        /// Along the rows of pixels.
-        u_px: f64,
-        /// Along the columns of pixels.
-        v_px: f64,
+        /// Along the rows of pixels, and along the columns.
+        uv_px: [f64; 2],
     },
     /// The length of a wire, or the distance of two points.
     Length {
@@ -90,6 +88,7 @@ impl Measured {
             Self::Range { range_m: value }
             | Self::Azimuth { azimuth_rad: value }
             | Self::Length { length_m: value } => std::slice::from_ref(value),
+            Self::Pixel { uv_px } => uv_px,
             Self::Readings => &[],
         }
     }
@@ -109,7 +108,7 @@ impl Measured {
             | Self::Azimuth { azimuth_rad: number }
             | Self::Length { length_m: number } => number.abs(),
             Self::Orientation(_) => 1.0,
-            Self::Pixel { u_px, v_px } => u_px.abs().max(v_px.abs()),
+            Self::Pixel { uv_px: [u, v] } => u.abs().max(v.abs()),
             Self::Readings => 0.0,
         }
     }

@@ -16,7 +16,7 @@ pub(super) const KIND: Kind = Kind {
         title: "Over the image",
         labels: ["u, px", "v, px"],
         place: |measured| match measured {
-            Measured::Pixel { u_px, v_px } => Some((*u_px, -*v_px)),
+            Measured::Pixel { uv_px: [u, v] } => Some((*u, *v)),
             _ => None,
         },
     }),
@@ -26,7 +26,7 @@ pub(super) const KIND: Kind = Kind {
         Measure::Pixel,
         &[PIXEL],
         |rows, to| {
-            rows.each(to, residual, |predicted| Measured::Pixel { u_px: predicted.x, v_px: predicted.y })
+            rows.each(to, residual, |predicted| Measured::Pixel { uv_px: [predicted.x, predicted.y] })
         },
     )
 };
@@ -50,14 +50,14 @@ const PIXEL: Written = Written {
                 -depth_m
             ));
         }
-        Ok(Measured::Pixel { u_px: cells.at(0), v_px: cells.at(1) })
+        Ok(Measured::Pixel { uv_px: [cells.at(0), cells.at(1)] })
     },
     filled: Filled::with(|shows| shows.vector().into()),
 };
 
 /// Nothing is seen behind the camera.
 fn residual(measured: &Measured, predicted: &Vector3<f64>) -> Option<[Part; 2]> {
-    let Measured::Pixel { u_px, v_px } = measured else { return None };
+    let Measured::Pixel { uv_px: [u, v] } = measured else { return None };
     let seen = |difference: f64| if predicted.z > 0.0 { difference } else { f64::NAN };
-    Some([(seen(u_px - predicted.x), Vector3::x()), (seen(v_px - predicted.y), Vector3::y())])
+    Some([(seen(u - predicted.x), Vector3::x()), (seen(v - predicted.y), Vector3::y())])
 }

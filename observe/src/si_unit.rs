@@ -65,7 +65,9 @@ impl SiUnit {
         match self {
             Self { rad: 1, metre, .. } if metre <= 0 => (Self::RAD, self.per(Self::RAD)),
             Self { metre: 1, rad, .. } if rad <= 0 => (Self::METRE, self.per(Self::METRE)),
-            Self { pixel: 1, rad, metre, .. } if rad <= 0 && metre <= 0 => (Self::PIXEL, self.per(Self::PIXEL)),
+            Self { pixel: 1, rad, metre, .. } if rad <= 0 && metre <= 0 => {
+                (Self::PIXEL, self.per(Self::PIXEL))
+            }
             _ => (Self::ONE, self),
         }
     }
@@ -84,7 +86,13 @@ impl From<Quantity> for SiUnit {
 impl fmt::Display for SiUnit {
     /// `rad`, `m`, `1`, `rad/K`, `m/rad`, `1/m`, `rad/m^2`.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let parts = [(self.rad, "rad"), (self.metre, "m"), (self.kelvin, "K"), (self.second, "s"), (self.pixel, "px")];
+        let parts = [
+            (self.rad, "rad"),
+            (self.metre, "m"),
+            (self.kelvin, "K"),
+            (self.second, "s"),
+            (self.pixel, "px"),
+        ];
         let written = |name: &str, power: i8| match power {
             1 => name.to_owned(),
             power => format!("{name}^{power}"),

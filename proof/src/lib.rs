@@ -105,7 +105,9 @@ pub enum Refusal {
     )]
     Claim,
     /// An image point.
-    #[error("certificates do not know image points yet, as the {reading} of a camera; certify the point in the frame of the camera")]
+    #[error(
+        "certificates do not know image points yet, as the {reading} of a camera; certify the point in the frame of the camera"
+    )]
     Image {
         /// The reading in words.
         reading: String,

@@ -296,7 +296,9 @@ impl<'c> Section<'c> {
                     let length = self.add_root(&everything)?;
                     format!("apply (range_reached _ _ _ _ _ _ _ step_0 ({length})); [positive|settle|{last}]")
                 }
-                Measures::OffAxis | Measures::Rotation(_) | Measures::Image(_) => unreachable!("refused before"),
+                Measures::OffAxis | Measures::Rotation(_) | Measures::Image(_) => {
+                    unreachable!("refused before")
+                }
             };
             let statement = self.part(prefix, formula);
             let _ = writeln!(

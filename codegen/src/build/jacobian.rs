@@ -99,12 +99,8 @@ fn column(
     symbol: SymbolId,
 ) -> Vector {
     let varying = Varying::new(b, symbol);
-    let mut used: Vec<usize> = varying
-        .symbols()
-        .filter_map(|symbol| uses.get(&symbol))
-        .flatten()
-        .copied()
-        .collect();
+    let mut used: Vec<usize> =
+        varying.symbols().filter_map(|symbol| uses.get(&symbol)).flatten().copied().collect();
     used.sort_unstable();
     used.dedup();
     let derivative = |b: &mut Builder, amount: &Split| varying.derivative(b, chain, amount, at);

@@ -34,10 +34,7 @@ pub(super) fn value(b: &mut Builder, reading: &Reading, nominal: &Vector, error:
             let real = real(b);
             length(b, &real)
         }
-        Measures::CrossElevation { .. }
-        | Measures::OffAxis
-        | Measures::Rotation(_)
-        | Measures::Image(_) => {
+        Measures::CrossElevation { .. } | Measures::OffAxis | Measures::Rotation(_) | Measures::Image(_) => {
             self::error(b, reading, nominal, error)
         }
     }

@@ -36,7 +36,11 @@ pub(crate) fn observed(setting: &Setting<'_>, observable: ObservableId, place: P
 
 /// The point that a camera sees, as a place below the camera or below the point sees it; `None` elsewhere: where the algebra
 /// cannot say, a place is taken to move what is seen.
-fn observed_by_camera(setting: &Setting<'_>, image: &model_core::Observable, place: Place) -> Option<[Poly; 3]> {
+fn observed_by_camera(
+    setting: &Setting<'_>,
+    image: &model_core::Observable,
+    place: Place,
+) -> Option<[Poly; 3]> {
     let carrier = image.frame?;
     carried(setting, image.components.clone(), carrier, true, place)
 }

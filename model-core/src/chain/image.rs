@@ -58,11 +58,7 @@ pub trait Field: Copy {
 }
 
 /// Where the camera of these numbers sees the point X, Y, Z of its frame: u and v.
-pub fn project<F: Field>(
-    [x, y, z]: [F; 3],
-    intrinsics: &[F; INTRINSICS],
-    with: &mut F::With<'_>,
-) -> [F; 2] {
+pub fn project<F: Field>([x, y, z]: [F; 3], intrinsics: &[F; INTRINSICS], with: &mut F::With<'_>) -> [F; 2] {
     let [fx, fy, cx, cy, k1, k2, p1, p2] = *intrinsics;
     let (x, y) = (x.over(z, with), y.over(z, with));
     let (xx, yy, xy) = (x.times(x, with), y.times(y, with), x.times(y, with));

@@ -27,9 +27,7 @@ impl Reading {
             Measures::CrossElevation { .. }
             | Measures::OffAxis
             | Measures::Rotation(_)
-            | Measures::Image(_) => {
-                self.error(nominal, error)
-            }
+            | Measures::Image(_) => self.error(nominal, error),
         }
     }
 

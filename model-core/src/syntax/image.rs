@@ -21,9 +21,9 @@ type Parts = ([Option<Expr<Span>>; 3], ImageTerm);
 /// What stands in the parentheses.
 pub fn image(reader: &mut Reader<'_, '_>) -> Result<Parts, Mistake<Span>> {
     let Some((inside, parentheses)) = reader.group(Delimiter::Parenthesis) else {
-        return Err(
-            reader.expected("the point and the camera's numbers in parentheses").with_help(IMAGE_HELP)
-        );
+        return Err(reader
+            .expected("the point and the camera's numbers in parentheses")
+            .with_help(IMAGE_HELP));
     };
     reader
         .inside(inside, parentheses.close, |reader| {

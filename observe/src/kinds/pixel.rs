@@ -25,9 +25,7 @@ pub(super) const KIND: Kind = Kind {
         (SiUnit::PIXEL, [NoiseOf::Pixels; MOST]),
         Measure::Pixel,
         &[PIXEL],
-        |rows, to| {
-            rows.each(to, residual, |predicted| Measured::Pixel { uv_px: [predicted.x, predicted.y] })
-        },
+        |rows, to| rows.each(to, residual, |predicted| Measured::Pixel { uv_px: [predicted.x, predicted.y] }),
     )
 };
 

@@ -45,7 +45,7 @@ for pan in np.radians([-14, -7, 0, 7, 14]):
                 rows.append([pan, tilt, *corner, u, v])
 
 with open("corners.csv", "w", newline="") as file:
-    table = csv.writer(file)
+    table = csv.writer(file, lineterminator="\n")
     table.writerow(["pan", "tilt", "px", "py", "pz", "u", "v"])
     table.writerows([[f"{number:.9g}" for number in row] for row in rows])
 

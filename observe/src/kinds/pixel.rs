@@ -34,8 +34,8 @@ const PIXEL: Written = Written {
     of: Observes::Image,
     quantity: Quantity::Number,
     columns: &[&[
-        Key { name: "u", headers: &["u", "pixelx", "px"] },
-        Key { name: "v", headers: &["v", "pixely", "py"] },
+        Key { name: "u", headers: &["u", "pixelx"] },
+        Key { name: "v", headers: &["v", "pixely"] },
     ]],
     of_readings: OfReadings::Nothing,
     is_meant: |_| true,

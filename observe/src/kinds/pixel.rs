@@ -33,10 +33,7 @@ const PIXEL: Written = Written {
     name: "pixel",
     of: Observes::Image,
     quantity: Quantity::Number,
-    columns: &[&[
-        Key { name: "u", headers: &["u", "pixelx"] },
-        Key { name: "v", headers: &["v", "pixely"] },
-    ]],
+    columns: &[&[Key { name: "u", headers: &["u", "pixelx"] }, Key { name: "v", headers: &["v", "pixely"] }]],
     of_readings: OfReadings::Nothing,
     is_meant: |_| true,
     read: |cells| {

@@ -350,7 +350,7 @@ impl Model {
 fn program(chain: &Chain, series: &Series, forms: &[Form], wrt: &[SymbolId]) -> Program {
     match series.measure.kind().predicted {
         Predicted::Axes => build_all(&axes_of(chain, series.observable), &AXES, forms, wrt),
-        Predicted::Vector => build_all(chain, &[series.observable], forms, wrt),
+        Predicted::Vector | Predicted::Image => build_all(chain, &[series.observable], forms, wrt),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::chain::Chain;
+use crate::chain::{Chain, Observable};
 use crate::names::nearest;
 use crate::symbol::{SymbolId, SymbolKind};
 
@@ -22,7 +22,8 @@ pub struct Caution {
 #[must_use]
 pub fn cautions(chain: &Chain) -> Vec<Caution> {
     let is_error = |id: SymbolId| chain.symbol(id).kind == SymbolKind::Error;
-    let amounts = || chain.factors().map(|factor| &factor.amount);
+    let observed = || chain.observables.iter().flat_map(Observable::amounts);
+    let amounts = || chain.factors().map(|factor| &factor.amount).chain(observed());
     let mut acts_alone = vec![false; chain.symbols.len()];
     for amount in amounts() {
         for symbol in amount.graded_part(is_error, 1).symbols() {

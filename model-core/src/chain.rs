@@ -2,6 +2,7 @@
 //!
 //! It has no places in a source text; those stay in [`crate::syntax`].
 
+pub mod image;
 pub mod reading;
 pub mod sight;
 
@@ -10,6 +11,7 @@ use std::borrow::Cow;
 use crate::algebra::Poly;
 use crate::ramp::Ramp;
 use crate::symbol::{Symbol, SymbolId, SymbolKind};
+use image::Image;
 use reading::Reading;
 use sight::{Bend, SightAngle};
 
@@ -127,14 +129,16 @@ pub struct Observable {
     pub documentation: String,
     /// A direction or a point.
     pub kind: ObservableKind,
-    /// Its components in the frame of `body`; amounts of constants and inputs.
+    /// Its components in the frame of `body`; amounts of constants and inputs. Those of an image point are in that of `frame`.
     pub components: [Poly; 3],
-    /// The body that carries it.
+    /// The body that carries it; the camera that sees an image point.
     pub body: BodyId,
-    /// The body in whose frame it is seen; `None` is the ground.
+    /// The body in whose frame it is seen, or to which an image point is fixed; `None` is the ground.
     pub frame: Option<BodyId>,
     /// The numbers that it shows of its vector, one to three; the components x, y, z unless the declaration says otherwise.
     pub shown: Vec<Reading>,
+    /// The camera, where an image point is observed.
+    pub image: Option<Box<Image>>,
     /// How the line of sight is bent on its way to the target.
     pub bend: Option<Bend>,
 }
@@ -226,8 +230,12 @@ impl Chain {
     #[must_use]
     pub fn way(&self, observable: ObservableId) -> Vec<Passed<'_>> {
         let observable = self.observable(observable);
-        let up = self.path(observable.body);
-        let down = observable.frame.map_or_else(Vec::new, |frame| self.path(frame));
+        let (mut up, mut down) =
+            (self.path(observable.body), observable.frame.map_or_else(Vec::new, |frame| self.path(frame)));
+        if observable.is_image() {
+            // What carries the point is seen by the body, and not the other way round.
+            std::mem::swap(&mut up, &mut down);
+        }
         let common = up.iter().zip(&down).take_while(|(a, b)| a == b).count();
         let reversed = down[common..].iter().rev().flat_map(|&body| {
             let factors = self.body(body).factors.iter().rev();
@@ -252,11 +260,24 @@ impl Chain {
         let way = self.way(observable);
         let amounts = way.iter().map(|passed| &passed.factor.amount);
         let mut symbols: Vec<SymbolId> = amounts
-            .chain(&self.observable(observable).components)
+            .chain(self.observable(observable).amounts())
             .flat_map(|amount| self.symbols_in(amount))
             .collect();
         symbols.sort_unstable();
         symbols.dedup();
         symbols
+    }
+}
+
+impl Observable {
+    /// Whether it shows where a camera sees a point.
+    #[must_use]
+    pub fn is_image(&self) -> bool {
+        self.image.is_some()
+    }
+
+    /// Its own amounts: the components, and the numbers of the camera.
+    pub fn amounts(&self) -> impl Iterator<Item = &Poly> {
+        self.components.iter().chain(self.image.iter().flat_map(|image| &image.intrinsics))
     }
 }

@@ -22,6 +22,7 @@ pub mod syntax;
 pub mod unit;
 pub mod validate;
 
+pub use chain::image;
 pub use chain::reading as readings;
 pub use chain::sight;
 pub use chain::{

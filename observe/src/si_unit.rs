@@ -1,4 +1,4 @@
-//! The SI unit of a number as a type: powers of the radian, the metre, the kelvin and the second.
+//! The SI unit of a number as a type: powers of the radian, the metre, the kelvin, the second and the pixel.
 
 use std::fmt;
 
@@ -12,11 +12,12 @@ pub struct SiUnit {
     metre: i8,
     kelvin: i8,
     second: i8,
+    pixel: i8,
 }
 
 impl SiUnit {
     /// A plain number.
-    pub const ONE: Self = Self { rad: 0, metre: 0, kelvin: 0, second: 0 };
+    pub const ONE: Self = Self { rad: 0, metre: 0, kelvin: 0, second: 0, pixel: 0 };
     /// The radian.
     pub const RAD: Self = Self { rad: 1, ..Self::ONE };
     /// The metre.
@@ -25,6 +26,8 @@ impl SiUnit {
     pub const KELVIN: Self = Self { kelvin: 1, ..Self::ONE };
     /// The second.
     pub const SECOND: Self = Self { second: 1, ..Self::ONE };
+    /// The pixel of a camera.
+    pub const PIXEL: Self = Self { pixel: 1, ..Self::ONE };
 
     /// The unit of a product.
     #[must_use]
@@ -34,6 +37,7 @@ impl SiUnit {
             metre: self.metre.saturating_add(other.metre),
             kelvin: self.kelvin.saturating_add(other.kelvin),
             second: self.second.saturating_add(other.second),
+            pixel: self.pixel.saturating_add(other.pixel),
         }
     }
 
@@ -51,15 +55,19 @@ impl SiUnit {
             metre: self.metre.saturating_mul(power),
             kelvin: self.kelvin.saturating_mul(power),
             second: self.second.saturating_mul(power),
+            pixel: self.pixel.saturating_mul(power),
         }
     }
 
-    /// The unit of this one's multiples that is neither angle nor length: `rad/K` is `rad` and `/K`.
+    /// The unit of this one's multiples that is neither angle, length nor pixel: `rad/K` is `rad` and `/K`.
     #[must_use]
     pub const fn split(self) -> (Self, Self) {
         match self {
             Self { rad: 1, metre, .. } if metre <= 0 => (Self::RAD, self.per(Self::RAD)),
             Self { metre: 1, rad, .. } if rad <= 0 => (Self::METRE, self.per(Self::METRE)),
+            Self { pixel: 1, rad, metre, .. } if rad <= 0 && metre <= 0 => {
+                (Self::PIXEL, self.per(Self::PIXEL))
+            }
             _ => (Self::ONE, self),
         }
     }
@@ -78,7 +86,13 @@ impl From<Quantity> for SiUnit {
 impl fmt::Display for SiUnit {
     /// `rad`, `m`, `1`, `rad/K`, `m/rad`, `1/m`, `rad/m^2`.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let parts = [(self.rad, "rad"), (self.metre, "m"), (self.kelvin, "K"), (self.second, "s")];
+        let parts = [
+            (self.rad, "rad"),
+            (self.metre, "m"),
+            (self.kelvin, "K"),
+            (self.second, "s"),
+            (self.pixel, "px"),
+        ];
         let written = |name: &str, power: i8| match power {
             1 => name.to_owned(),
             power => format!("{name}^{power}"),

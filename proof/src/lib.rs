@@ -104,6 +104,14 @@ pub enum Refusal {
          by sums"
     )]
     Claim,
+    /// An image point.
+    #[error(
+        "certificates do not know image points yet, as the {reading} of a camera; certify the point in the frame of the camera"
+    )]
+    Image {
+        /// The reading in words.
+        reading: String,
+    },
     /// How a body is turned.
     #[error(
         "{reading} of an orientation; certificates speak of vectors: claim the directions of its three axes"

@@ -232,7 +232,7 @@ impl<'c> Section<'c> {
             Measures::Elevation { up } => format!("elevation_error {}", half(up)),
             Measures::ZenithDistance { up } => format!("zenith_distance_error {}", half(up)),
             Measures::Range => "range_error".to_owned(),
-            Measures::OffAxis | Measures::Rotation(_) => unreachable!("refused before"),
+            Measures::OffAxis | Measures::Rotation(_) | Measures::Image(_) => unreachable!("refused before"),
         };
         format!("{said} seen {prefix}_{}", formula.reading.word)
     }
@@ -296,7 +296,9 @@ impl<'c> Section<'c> {
                     let length = self.add_root(&everything)?;
                     format!("apply (range_reached _ _ _ _ _ _ _ step_0 ({length})); [positive|settle|{last}]")
                 }
-                Measures::OffAxis | Measures::Rotation(_) => unreachable!("refused before"),
+                Measures::OffAxis | Measures::Rotation(_) | Measures::Image(_) => {
+                    unreachable!("refused before")
+                }
             };
             let statement = self.part(prefix, formula);
             let _ = writeln!(
@@ -313,6 +315,9 @@ fn only_first_order(shown: &[Reading], order: u32) -> Result<(), Refusal> {
     if let Some(reading) = shown.iter().find(|reading| reading.rotation().is_some()) {
         return Err(Refusal::Orientation { reading: reading.words() });
     }
+    if let Some(reading) = shown.iter().find(|reading| reading.image().is_some()) {
+        return Err(Refusal::Image { reading: reading.words() });
+    }
     let above = shown.iter().find(|reading| order > 1 && reading.component().is_none());
     above.map_or(Ok(()), |reading| Err(Refusal::ReadingToOrder { reading: reading.words(), order }))
 }
@@ -326,7 +331,7 @@ fn unique(reading: &Reading) -> &'static str {
         Measures::Elevation { .. } => "one_elevation _ _ _ _",
         Measures::ZenithDistance { .. } => "one_zenith_distance _ _ _ _",
         Measures::Range => "one_range _ _ _",
-        Measures::OffAxis | Measures::Rotation(_) => unreachable!("refused before"),
+        Measures::OffAxis | Measures::Rotation(_) | Measures::Image(_) => unreachable!("refused before"),
     }
 }
 

@@ -211,6 +211,7 @@ impl Chain {
                 let kind = match observable.kind {
                     ObservableKind::Direction if observable.is_orientation() => "orientation",
                     ObservableKind::Direction => "direction",
+                    ObservableKind::Point if observable.is_image() => "image",
                     ObservableKind::Point => "point",
                 };
                 let readings = library::readings_of(&self.chain, id);

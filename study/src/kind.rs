@@ -67,6 +67,8 @@ impl Kind {
 pub fn observes(observable: &Observable) -> Observes {
     if observable.is_orientation() {
         Observes::Orientation
+    } else if observable.is_image() {
+        Observes::Image
     } else if observable.kind == ObservableKind::Point {
         Observes::Point
     } else {

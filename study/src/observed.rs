@@ -86,5 +86,5 @@ pub(super) fn observed_columns(
 
 /// Whether a key is a component, whose column `simulate` and `eval` call by the observable and the key.
 fn is_of_vector(key: &str) -> bool {
-    matches!(key, "x" | "y" | "z" | "rotation_x" | "rotation_y" | "rotation_z")
+    matches!(key, "x" | "y" | "z" | "rotation_x" | "rotation_y" | "rotation_z" | "u" | "v")
 }

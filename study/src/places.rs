@@ -33,6 +33,7 @@ impl Study {
         if !observed.kind.measures(of) {
             let what = match of {
                 Observes::Orientation => "an orientation",
+                Observes::Image => "an image point",
                 Observes::Point => "a point",
                 Observes::Direction => "a direction",
             };

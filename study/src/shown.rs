@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use model_core::readings::{COMPONENTS, Measures, ROTATION, SignedAxis};
+use model_core::readings::{COMPONENTS, IMAGE, Measures, ROTATION, SignedAxis};
 use model_core::{Axis, Chain, Observable};
 use nalgebra::Vector3;
 
@@ -62,6 +62,17 @@ pub(super) fn convention(
     if observable.is_vector() {
         return Ok(None);
     }
+    if observable.is_image() {
+        if observable.shown == IMAGE {
+            return Ok(None);
+        }
+        let message = format!("`{}` shows a part of an image point, which no kind measures", observable.name);
+        return Err(mistake(
+            place.clone(),
+            message,
+            "observe all of it: `image(…) of …`, without a reading before it",
+        ));
+    }
     if observable.is_orientation() {
         if observable.shown == ROTATION {
             return Ok(None);
@@ -115,10 +126,14 @@ pub(super) fn convention(
     }
 }
 
-/// The chain as fits know it: every observable shows its vector, or how a body is turned.
+/// The chain as fits know it: every observable shows its vector, how a body is turned, or an image point and its distance.
 pub(super) fn vectors(mut chain: Chain) -> Chain {
     for observable in chain.observables.iter_mut().filter(|observable| !observable.is_orientation()) {
-        observable.shown = COMPONENTS.to_vec();
+        observable.shown = match observable.is_image() {
+            // Behind a camera nothing is seen, so a fit knows on which side a point is.
+            true => [&IMAGE[..], &COMPONENTS[2..]].concat(),
+            false => COMPONENTS.to_vec(),
+        };
     }
     chain
 }

@@ -25,7 +25,7 @@ impl Study {
         if quantities.any(|other| other != quantity) {
             return Err(mistake(
                 place,
-                "one standard deviation cannot stand for both angles and lengths",
+                "one standard deviation cannot stand for angles, lengths and pixels",
                 "leave `sigma` out to have each estimated, or write it into a column of each file",
             ));
         }
@@ -69,7 +69,11 @@ fn is_amount(sigma: &Spanned<Sigma>) -> bool {
 
 /// What residuals measure.
 pub(super) fn quantity(measure: Measure) -> Quantity {
-    if measure.unit() == SiUnit::RAD { Quantity::Angle } else { Quantity::Length }
+    match measure.unit() {
+        SiUnit::RAD => Quantity::Angle,
+        SiUnit::PIXEL => Quantity::Number,
+        _ => Quantity::Length,
+    }
 }
 
 fn planned(columns: &[Column], place: &Range<usize>, measure: Measure) -> Outcome<Vec<ColumnPlan>> {

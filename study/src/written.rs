@@ -181,6 +181,8 @@ pub(super) struct Observed {
     /// The columns that name where from.
     #[serde(default)]
     pub station: OneOrMore,
+    pub u: Option<Column>,
+    pub v: Option<Column>,
     pub length: Option<Column>,
     pub radius: Option<Column>,
     pub rotation_x: Option<Column>,
@@ -213,7 +215,7 @@ impl Observed {
     }
 
     /// Every column by its key.
-    pub(super) fn columns(&self) -> [(&'static str, &Option<Column>); 31] {
+    pub(super) fn columns(&self) -> [(&'static str, &Option<Column>); 33] {
         [
             ("x", &self.x),
             ("y", &self.y),
@@ -225,6 +227,8 @@ impl Observed {
             ("cross", &self.cross),
             ("along", &self.along),
             ("range", &self.range),
+            ("u", &self.u),
+            ("v", &self.v),
             ("length", &self.length),
             ("radius", &self.radius),
             ("rotation_x", &self.rotation_x),

@@ -282,6 +282,7 @@ fn frame_of(
             body,
             frame,
             shown: COMPONENTS.to_vec(),
+            image: None,
             bend: None,
         });
     }

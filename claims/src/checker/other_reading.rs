@@ -73,6 +73,10 @@ fn others(reading: &Reading) -> Vec<Reading> {
         ],
         Measures::Elevation { up } => vec![with("zenith_distance", Measures::ZenithDistance { up })],
         Measures::ZenithDistance { up } => vec![with("elevation", Measures::Elevation { up })],
-        Measures::Component(_) | Measures::Range | Measures::OffAxis | Measures::Rotation(_) => Vec::new(),
+        Measures::Component(_)
+        | Measures::Range
+        | Measures::OffAxis
+        | Measures::Rotation(_)
+        | Measures::Image(_) => Vec::new(),
     }
 }

@@ -253,7 +253,10 @@ impl<'a> Shared<'a> {
             if !observable.is_vector() {
                 said.extend(observable.shown.iter().map(|reading| reading.describe()));
             }
-            let frame = observable.frame.map(|frame| format!("in the frame of {}", chain.body(frame).name));
+            let frame = observable
+                .frame
+                .filter(|_| !observable.is_image())
+                .map(|frame| format!("in the frame of {}", chain.body(frame).name));
             if !said.is_empty() || frame.is_some() {
                 let parts = [Some(said.join(", ")).filter(|said| !said.is_empty()), frame];
                 let parts: Vec<String> = parts.into_iter().flatten().collect();

@@ -73,7 +73,7 @@ pub(super) fn error(b: &mut Builder, chain: &Chain, path: &Path, meeting: usize)
 }
 
 /// The part of an amount that is linear in the errors.
-fn linear(chain: &Chain, amount: &Poly) -> Poly {
+pub(super) fn linear(chain: &Chain, amount: &Poly) -> Poly {
     amount.graded_part(|symbol| is_error(chain, symbol), 1)
 }
 

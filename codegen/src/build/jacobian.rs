@@ -8,6 +8,8 @@
 
 use std::collections::BTreeMap;
 
+use model_core::ramp::Ramp;
+use model_core::sight::SightAngle;
 use model_core::{Axis, Chain, SymbolId, TransformKind};
 
 use super::amount::{lower, small_turn, turn};
@@ -16,7 +18,7 @@ use super::path::{Path, Split, Step, is_error};
 use super::ramp::slope;
 use super::sight::sight_slope;
 use super::vectors::{Matrix, NOTHING, Turn, Vector, add, affine, along, axis_cross, cross};
-use crate::builder::Builder;
+use crate::builder::{Builder, Value};
 
 /// Where the derivative is taken.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -96,42 +98,12 @@ fn column(
     at: At,
     symbol: SymbolId,
 ) -> Vector {
-    let (ramps, angles) = (b.ramps_of(symbol), b.sight_angles_of(symbol));
-    let mut used: Vec<usize> = ramps
-        .iter()
-        .map(|ramp| ramp.symbol)
-        .chain(angles.iter().map(|angle| angle.symbol))
-        .chain([symbol])
-        .filter_map(|symbol| uses.get(&symbol))
-        .flatten()
-        .copied()
-        .collect();
+    let varying = Varying::new(b, symbol);
+    let mut used: Vec<usize> =
+        varying.symbols().filter_map(|symbol| uses.get(&symbol)).flatten().copied().collect();
     used.sort_unstable();
     used.dedup();
-    let derivative = |b: &mut Builder, amount: &Split| {
-        let amount = &amount.nominal + &amount.error;
-        let partial = |b: &mut Builder, symbol| {
-            let derivative = amount.derivative(symbol);
-            match at {
-                At::Errors => lower(b, &derivative),
-                At::Nominal => lower(b, &derivative.graded_part(|id| is_error(chain, id), 0)),
-            }
-        };
-        let mut sum = partial(b, symbol);
-        for ramp in &ramps {
-            let of_ramp = partial(b, ramp.symbol);
-            let slope = slope(b, ramp, symbol);
-            let part = b.mul(of_ramp, slope);
-            sum = b.add(sum, part);
-        }
-        for angle in &angles {
-            let of_angle = partial(b, angle.symbol);
-            let slope = sight_slope(b, angle, symbol);
-            let part = b.mul(of_angle, slope);
-            sum = b.add(sum, part);
-        }
-        sum
-    };
+    let derivative = |b: &mut Builder, amount: &Split| varying.derivative(b, chain, amount, at);
     let mut sum = NOTHING;
     for index in used {
         let (step, below, above) = (&path.steps[index], &places.below[index], &places.above[index]);
@@ -153,6 +125,51 @@ fn column(
     match places.below.last() {
         Some(below) => affine(b, below, &own, &sum),
         None => sum,
+    }
+}
+
+/// A symbol, with the ramps and angles of lines of sight that vary with it.
+pub(super) struct Varying {
+    symbol: SymbolId,
+    ramps: Vec<Ramp>,
+    angles: Vec<SightAngle>,
+}
+
+impl Varying {
+    pub(super) fn new(b: &Builder, symbol: SymbolId) -> Self {
+        Self { symbol, ramps: b.ramps_of(symbol), angles: b.sight_angles_of(symbol) }
+    }
+
+    /// What varies.
+    fn symbols(&self) -> impl Iterator<Item = SymbolId> {
+        let derived = self.ramps.iter().map(|ramp| ramp.symbol);
+        derived.chain(self.angles.iter().map(|angle| angle.symbol)).chain([self.symbol])
+    }
+
+    /// The derivative of an amount.
+    pub(super) fn derivative(&self, b: &mut Builder, chain: &Chain, amount: &Split, at: At) -> Value {
+        let amount = &amount.nominal + &amount.error;
+        let partial = |b: &mut Builder, symbol| {
+            let derivative = amount.derivative(symbol);
+            match at {
+                At::Errors => lower(b, &derivative),
+                At::Nominal => lower(b, &derivative.graded_part(|id| is_error(chain, id), 0)),
+            }
+        };
+        let mut sum = partial(b, self.symbol);
+        for ramp in &self.ramps {
+            let of_ramp = partial(b, ramp.symbol);
+            let slope = slope(b, ramp, self.symbol);
+            let part = b.mul(of_ramp, slope);
+            sum = b.add(sum, part);
+        }
+        for angle in &self.angles {
+            let of_angle = partial(b, angle.symbol);
+            let slope = sight_slope(b, angle, self.symbol);
+            let part = b.mul(of_angle, slope);
+            sum = b.add(sum, part);
+        }
+        sum
     }
 }
 

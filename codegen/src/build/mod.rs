@@ -6,6 +6,7 @@
 mod amount;
 mod exact;
 mod first_order;
+mod image;
 mod jacobian;
 mod path;
 mod product;
@@ -119,6 +120,19 @@ impl Builds<'_> {
         for &form in &layout.forms {
             for path in paths {
                 let b = &mut b;
+                if let Some(camera) = &path.camera {
+                    match form {
+                        Form::ExactValue => outputs.extend(image::value(b, path, camera)),
+                        Form::ExactError => outputs.extend(image::error(b, path, camera)),
+                        Form::FirstOrderError => {
+                            outputs.extend(image::first_order(b, chain, path, camera, meeting));
+                        }
+                        Form::ExactJacobian | Form::FirstOrderJacobian | Form::Uncertainty => {
+                            self.derivatives(b, path, form, &layout.wrt, &mut outputs);
+                        }
+                    }
+                    continue;
+                }
                 match form {
                     Form::ExactValue | Form::ExactError if path.is_orientation() => {
                         let axes = path.to_axes().each_ref().map(|axis| exact::both(b, axis));
@@ -151,26 +165,36 @@ impl Builds<'_> {
                         let nominal = nominal(b, path, path);
                         outputs.extend(path.shown.iter().map(|one| readings::rate(b, one, &nominal, &error)));
                     }
-                    Form::ExactJacobian | Form::FirstOrderJacobian => {
-                        let at = if form == Form::ExactJacobian {
-                            jacobian::At::Errors
-                        } else {
-                            jacobian::At::Nominal
-                        };
-                        outputs.extend(jacobian_rows(b, chain, path, at, &layout.wrt));
+                    Form::ExactJacobian | Form::FirstOrderJacobian | Form::Uncertainty => {
+                        self.derivatives(b, path, form, &layout.wrt, &mut outputs);
                     }
-                    Form::Uncertainty => match self.covariance.filter(|known| !known.of.is_empty()) {
-                        Some(covariance) => {
-                            let at = jacobian::At::Errors;
-                            let derivatives = jacobian_rows(b, chain, path, at, covariance.of);
-                            outputs.extend(uncertain::standard(b, &derivatives, &covariance));
-                        }
-                        None => outputs.extend(path.shown.iter().map(|_| Builder::ZERO)),
-                    },
                 }
             }
         }
         b.finish(layout.clone(), &outputs)
+    }
+
+    /// A form that is made of derivatives.
+    fn derivatives(
+        &self,
+        b: &mut Builder,
+        path: &Path,
+        form: Form,
+        wrt: &[SymbolId],
+        outputs: &mut Vec<Value>,
+    ) {
+        let chain = self.chain;
+        match (form, self.covariance.filter(|known| !known.of.is_empty())) {
+            (Form::Uncertainty, Some(covariance)) => {
+                let derivatives = jacobian_rows(b, chain, path, jacobian::At::Errors, covariance.of);
+                outputs.extend(uncertain::standard(b, &derivatives, &covariance));
+            }
+            (Form::Uncertainty, None) => outputs.extend(path.shown.iter().map(|_| Builder::ZERO)),
+            (Form::FirstOrderJacobian, _) => {
+                outputs.extend(jacobian_rows(b, chain, path, jacobian::At::Nominal, wrt));
+            }
+            _ => outputs.extend(jacobian_rows(b, chain, path, jacobian::At::Errors, wrt)),
+        }
     }
 }
 
@@ -187,6 +211,9 @@ fn jacobian_rows(
     at: jacobian::At,
     wrt: &[SymbolId],
 ) -> Vec<Value> {
+    if let Some(camera) = &path.camera {
+        return image::jacobian_rows(b, chain, path, camera, at, wrt);
+    }
     if path.is_orientation() {
         return orientation_rows(b, chain, path, at, wrt);
     }

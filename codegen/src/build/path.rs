@@ -2,6 +2,7 @@
 //! errors add to it.
 
 use model_core::algebra::Poly;
+use model_core::image::INTRINSICS;
 use model_core::readings::Reading;
 use model_core::{Axis, Chain, ObservableId, ObservableKind, SymbolId, SymbolKind, TransformKind};
 
@@ -41,9 +42,14 @@ pub(super) struct Path {
     pub(super) kind: ObservableKind,
     /// In the frame of the body that carries it.
     pub(super) components: [Split; 3],
+    /// The camera, where an image point is observed.
+    pub(super) camera: Option<Box<Camera>>,
     /// What is shown of it.
     pub(super) shown: Vec<Reading>,
 }
+
+/// The numbers of a camera.
+pub(super) type Camera = [Split; INTRINSICS];
 
 impl Path {
     /// Whether nothing but components is shown.
@@ -101,7 +107,10 @@ pub(super) fn path(chain: &Chain, observable: ObservableId) -> Path {
         .collect();
     let components =
         chain.observable(observable).components.each_ref().map(|amount| Split::new(chain, amount));
-    Path { steps, kind, components, shown }
+    let camera = chain.observable(observable).image.as_ref();
+    let camera =
+        camera.map(|image| Box::new(image.intrinsics.each_ref().map(|amount| Split::new(chain, amount))));
+    Path { steps, kind, components, camera, shown }
 }
 
 pub(super) fn is_error(chain: &Chain, symbol: SymbolId) -> bool {

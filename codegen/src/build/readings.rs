@@ -34,7 +34,7 @@ pub(super) fn value(b: &mut Builder, reading: &Reading, nominal: &Vector, error:
             let real = real(b);
             length(b, &real)
         }
-        Measures::CrossElevation { .. } | Measures::OffAxis | Measures::Rotation(_) => {
+        Measures::CrossElevation { .. } | Measures::OffAxis | Measures::Rotation(_) | Measures::Image(_) => {
             self::error(b, reading, nominal, error)
         }
     }
@@ -60,6 +60,7 @@ pub(super) fn error(b: &mut Builder, reading: &Reading, nominal: &Vector, error:
             b.arc_tangent(sine, cosine)
         }
         Measures::Rotation(_) => unreachable!("{ORIENTATION}"),
+        Measures::Image(_) => unreachable!("{IMAGE}"),
     }
 }
 
@@ -86,11 +87,15 @@ pub(super) fn rate(b: &mut Builder, reading: &Reading, vector: &Vector, change: 
             b.div(above, below)
         }
         Measures::Rotation(_) => unreachable!("{ORIENTATION}"),
+        Measures::Image(_) => unreachable!("{IMAGE}"),
     }
 }
 
 /// Why no single vector is asked how a body is turned.
 const ORIENTATION: &str = "orientations go by the three axes of their body";
+
+/// Why no single vector is asked what a camera makes of it.
+const IMAGE: &str = "image points go by the numbers of their camera";
 
 /// The turn of a body: its small rotation vector, its angle, and the sine and cosine of that.
 struct Turn {

@@ -7,6 +7,7 @@ mod support;
 
 mod batches;
 mod counts;
+mod images;
 mod jacobians;
 mod order;
 mod orientation;

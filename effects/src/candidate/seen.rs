@@ -27,8 +27,22 @@ pub(crate) fn from_ground(setting: &Setting<'_>, vector: &[Poly; 3], place: Plac
 /// What is observed as a place sees it: a direction, or a point from where the place is.
 pub(crate) fn observed(setting: &Setting<'_>, observable: ObservableId, place: Place) -> Option<[Poly; 3]> {
     let observable = setting.chain.observable(observable);
+    if observable.is_image() {
+        return observed_by_camera(setting, observable, place);
+    }
     let shifts = observable.kind == ObservableKind::Point;
     carried(setting, observable.components.clone(), observable.body, shifts, place)
+}
+
+/// The point that a camera sees, as a place below the camera or below the point sees it; `None` elsewhere: where the algebra
+/// cannot say, a place is taken to move what is seen.
+fn observed_by_camera(
+    setting: &Setting<'_>,
+    image: &model_core::Observable,
+    place: Place,
+) -> Option<[Poly; 3]> {
+    let carrier = image.frame?;
+    carried(setting, image.components.clone(), carrier, true, place)
 }
 
 /// The origin of a body as a place in it or below it sees it.

@@ -148,6 +148,9 @@ impl Setting<'_> {
         let mut ranges = Vec::new();
         for &id in self.observables {
             let observable = self.chain.observable(id);
+            if observable.is_image() {
+                continue;
+            }
             for (component, axis) in observable.components.iter().zip([Axis::X, Axis::Y, Axis::Z]) {
                 let inputs = component.symbols().into_iter();
                 let inputs = inputs.filter(|&symbol| self.chain.symbol(symbol).kind == SymbolKind::Input);

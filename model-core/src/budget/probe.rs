@@ -23,8 +23,8 @@ enum Shown {
     Vector,
     /// Readings of the vector.
     Readings(Vec<Reading>),
-    /// How a body is turned.
-    Orientation,
+    /// How a body is turned, or where a camera sees a point: no reading of the vector alone.
+    Whole,
 }
 
 impl Probe {
@@ -34,8 +34,8 @@ impl Probe {
         let observable = chain.observable(observable);
         let shown = if observable.is_vector() {
             Shown::Vector
-        } else if observable.is_orientation() {
-            Shown::Orientation
+        } else if observable.is_orientation() || observable.is_image() {
+            Shown::Whole
         } else {
             Shown::Readings(observable.shown.clone())
         };
@@ -63,7 +63,7 @@ impl Probe {
                 values[error.index()] = 0.0;
                 self.size(&self.path.value(values), &added)
             }
-            Shown::Readings(_) | Shown::Orientation => root_of_squares(self.path.shown_error(values)),
+            Shown::Readings(_) | Shown::Whole => root_of_squares(self.path.shown_error(values)),
         };
         values[error.index()] = 0.0;
         influence
@@ -71,7 +71,7 @@ impl Probe {
 
     /// The same of several errors, each with its size.
     pub fn influences(&self, values: &mut [f64], errors: &[(SymbolId, f64)]) -> Vec<f64> {
-        if matches!(self.shown, Shown::Orientation) {
+        if matches!(self.shown, Shown::Whole) {
             return errors.iter().map(|&(error, size)| self.influence(values, error, size)).collect();
         }
         let mut sizes = vec![0.0; self.each.errors().len()];
@@ -87,7 +87,7 @@ impl Probe {
                 Shown::Readings(readings) => {
                     root_of_squares(readings.iter().map(|reading| reading.error(&nominal, &added)))
                 }
-                Shown::Vector | Shown::Orientation => self.size(&nominal, &added),
+                Shown::Vector | Shown::Whole => self.size(&nominal, &added),
             }
         };
         errors.iter().map(influence).collect()

@@ -4,6 +4,7 @@
 //! Here is what there is, and by which convention; [`WORDS`] is the one table of it. [`crate::exact`] has their values and
 //! errors in numbers, [`crate::forms`] their errors by degree in the errors.
 
+use super::image::ImageAxis;
 use super::{Axis, Observable, ObservableKind};
 
 /// An axis of the frame that an observable is seen in, forwards or backwards: `x`, `-y`.
@@ -86,6 +87,8 @@ pub enum Measures {
     /// One component of the small rotation vector ω of a body, in the frame that it is seen in: with errors the body is turned
     /// as by design and then about ω by its length, R = exp(ω×) R₀. It is an error by itself, and belongs to no vector.
     Rotation(Axis),
+    /// Where a camera sees the point v of its frame, in pixels; the numbers of the camera belong to the observable.
+    Image(ImageAxis),
 }
 
 const X: SignedAxis = SignedAxis::along(Axis::X);
@@ -95,7 +98,7 @@ const MINUS_Y: SignedAxis = SignedAxis::against(Axis::Y);
 
 /// Every reading by its word, by the convention that holds where none is written. This is the one place that says where an
 /// angle is zero and which way it turns.
-pub const WORDS: [Reading; 16] = [
+pub const WORDS: [Reading; 18] = [
     Reading { word: "x", measures: Measures::Component(Axis::X) },
     Reading { word: "y", measures: Measures::Component(Axis::Y) },
     Reading { word: "z", measures: Measures::Component(Axis::Z) },
@@ -112,10 +115,15 @@ pub const WORDS: [Reading; 16] = [
     Reading { word: "rotation_x", measures: Measures::Rotation(Axis::X) },
     Reading { word: "rotation_y", measures: Measures::Rotation(Axis::Y) },
     Reading { word: "rotation_z", measures: Measures::Rotation(Axis::Z) },
+    Reading { word: "u", measures: Measures::Image(ImageAxis::U) },
+    Reading { word: "v", measures: Measures::Image(ImageAxis::V) },
 ];
 
 /// The small rotation vector: what an orientation shows that names no readings.
 pub const ROTATION: [Reading; 3] = [WORDS[13], WORDS[14], WORDS[15]];
+
+/// Both numbers of an image point: what one shows that names no readings.
+pub const IMAGE: [Reading; 2] = [WORDS[16], WORDS[17]];
 
 /// The components of a vector: what an observable shows that names no readings.
 pub const COMPONENTS: [Reading; 3] = [WORDS[0], WORDS[1], WORDS[2]];
@@ -133,7 +141,11 @@ impl Reading {
         match self.measures {
             Measures::Azimuth { .. } | Measures::CrossElevation { .. } => 2,
             Measures::Elevation { .. } | Measures::ZenithDistance { .. } => 1,
-            Measures::Component(_) | Measures::Range | Measures::OffAxis | Measures::Rotation(_) => 0,
+            Measures::Component(_)
+            | Measures::Range
+            | Measures::OffAxis
+            | Measures::Rotation(_)
+            | Measures::Image(_) => 0,
         }
     }
 
@@ -163,6 +175,15 @@ impl Reading {
         }
     }
 
+    /// The number of an image point that it is, if it is one.
+    #[must_use]
+    pub fn image(&self) -> Option<ImageAxis> {
+        match self.measures {
+            Measures::Image(axis) => Some(axis),
+            _ => None,
+        }
+    }
+
     /// The component that it is, if it is one.
     #[must_use]
     pub fn component(&self) -> Option<Axis> {
@@ -175,12 +196,15 @@ impl Reading {
     /// Whether it is an angle, in radians.
     #[must_use]
     pub fn is_angle(&self) -> bool {
-        !matches!(self.measures, Measures::Component(_) | Measures::Range)
+        !matches!(self.measures, Measures::Component(_) | Measures::Range | Measures::Image(_))
     }
 
-    /// Its unit for an observable of a kind: `rad`, `m`, or `1` for components of directions.
+    /// Its unit for an observable of a kind: `rad`, `m`, `px`, or `1` for components of directions.
     #[must_use]
     pub fn unit(&self, kind: ObservableKind) -> &'static str {
+        if self.image().is_some() {
+            return "px";
+        }
         match (self.is_angle(), kind) {
             (true, _) => "rad",
             (false, ObservableKind::Point) => "m",
@@ -201,6 +225,7 @@ impl Reading {
             Measures::Range => "range".to_owned(),
             Measures::OffAxis => "angle off the axis".to_owned(),
             Measures::Rotation(axis) => format!("component {axis} of the small rotation vector"),
+            Measures::Image(_) => format!("{} of the image point", self.word),
         }
     }
 
@@ -222,9 +247,11 @@ impl Reading {
                 format!("{}({zero}, {through})", self.word)
             }
             Measures::Elevation { up } | Measures::ZenithDistance { up } => format!("{}({up})", self.word),
-            Measures::Component(_) | Measures::Range | Measures::OffAxis | Measures::Rotation(_) => {
-                self.word.to_owned()
-            }
+            Measures::Component(_)
+            | Measures::Range
+            | Measures::OffAxis
+            | Measures::Rotation(_)
+            | Measures::Image(_) => self.word.to_owned(),
         }
     }
 }

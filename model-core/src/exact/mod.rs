@@ -5,6 +5,7 @@
 //! apart, so that the remainder keeps full relative precision too.
 
 mod each;
+mod image;
 mod reading;
 
 use std::borrow::Cow;
@@ -12,12 +13,14 @@ use std::borrow::Cow;
 use nalgebra::Vector3;
 
 use crate::algebra::Poly;
+use crate::chain::image::ImageAxis;
 use crate::chain::reading::Reading;
 use crate::chain::sight::SightAngle;
 use crate::chain::{Axis, Chain, ObservableId, ObservableKind, TransformKind};
 use crate::forms::error_table;
 use crate::ramp::Ramp;
 use crate::symbol::{SymbolId, SymbolKind};
+use image::{Graded, Intrinsics};
 
 pub use each::Each;
 
@@ -27,6 +30,8 @@ pub struct Path {
     /// From the device to the frame that it is seen in.
     steps: Vec<Step>,
     vector: [Split; 3],
+    /// The numbers of the camera, where an image point is observed.
+    camera: Option<Box<Intrinsics>>,
     /// What is shown of the vector.
     shown: Vec<Reading>,
     /// The ramps that the amounts use.
@@ -82,6 +87,7 @@ impl Path {
         let mut path = Self {
             steps,
             vector: observable.components.each_ref().map(split),
+            camera: observable.image.as_ref().map(|image| Box::new(image::split(image, split))),
             shown: observable.shown.clone(),
             ramps: Vec::new(),
             angles: Vec::new(),
@@ -108,7 +114,8 @@ impl Path {
     }
 
     fn own_symbols(&self) -> Vec<SymbolId> {
-        let amounts = self.steps.iter().map(|step| &step.amount).chain(&self.vector);
+        let camera = self.camera.iter().flat_map(|camera| camera.iter());
+        let amounts = self.steps.iter().map(|step| &step.amount).chain(&self.vector).chain(camera);
         let mut symbols: Vec<SymbolId> = amounts
             .flat_map(|split| [&split.nominal, &split.linear, &split.beyond])
             .flat_map(Poly::symbols)
@@ -145,6 +152,9 @@ impl Path {
         if self.is_orientation() {
             return self.turned(values);
         }
+        if let Some(image) = self.image(values) {
+            return image.iter().map(|number| number.value()).collect();
+        }
         let parts = self.parts(values);
         let error = parts.first + parts.rest;
         self.shown.iter().map(|reading| reading.value(&parts.nominal, &error)).collect()
@@ -155,6 +165,9 @@ impl Path {
     pub fn shown_error(&self, values: &[f64]) -> Vec<f64> {
         if self.is_orientation() {
             return self.turned(values);
+        }
+        if let Some(image) = self.image(values) {
+            return image.iter().map(|number| number.error()).collect();
         }
         let parts = self.parts(values);
         let error = parts.first + parts.rest;
@@ -173,6 +186,9 @@ impl Path {
                 .map(|(axis, turned)| turned - first[axis.index()])
                 .collect();
         }
+        if let Some(image) = self.image(values) {
+            return image.iter().map(|number| number.rest).collect();
+        }
         let parts = self.parts(values);
         let error = parts.first + parts.rest;
         self.shown
@@ -182,6 +198,19 @@ impl Path {
                 None => reading.error(&parts.nominal, &error) - reading.slope(&parts.nominal, &parts.first),
             })
             .collect()
+    }
+
+    /// What is shown of an image point, by degree in the errors; `None` for anything else.
+    fn image(&self, values: &[f64]) -> Option<Vec<Graded>> {
+        let camera = self.camera.as_ref()?;
+        let point = self.parts(values);
+        let seen = image::seen(&point, camera, &self.with_derived(values));
+        let shown = |reading: &Reading| {
+            let component = |axis: Axis| image::component(&point, axis.index());
+            let number = |axis: ImageAxis| seen[axis.index()];
+            reading.image().map(number).or_else(|| reading.component().map(component))
+        };
+        Some(self.shown.iter().filter_map(shown).collect())
     }
 
     fn is_orientation(&self) -> bool {

@@ -24,9 +24,10 @@ impl Reading {
                 plane.length.atan2(up.of(&vector))
             }
             Measures::Range => vector.norm(),
-            Measures::CrossElevation { .. } | Measures::OffAxis | Measures::Rotation(_) => {
-                self.error(nominal, error)
-            }
+            Measures::CrossElevation { .. }
+            | Measures::OffAxis
+            | Measures::Rotation(_)
+            | Measures::Image(_) => self.error(nominal, error),
         }
     }
 
@@ -56,8 +57,8 @@ impl Reading {
             }
             Measures::Range => growth(nominal, error),
             Measures::OffAxis => nominal.cross(error).norm().atan2(nominal.dot(&(nominal + error))),
-            // No single vector says how a body is turned.
-            Measures::Rotation(_) => f64::NAN,
+            // No single vector says how a body is turned, or what a camera makes of it.
+            Measures::Rotation(_) | Measures::Image(_) => f64::NAN,
         }
     }
 }
@@ -86,7 +87,7 @@ impl Reading {
                 -Self { measures: Measures::Elevation { up }, ..*self }.slope(nominal, error)
             }
             Measures::Range => nominal.dot(error) / nominal.norm(),
-            Measures::OffAxis | Measures::Rotation(_) => f64::NAN,
+            Measures::OffAxis | Measures::Rotation(_) | Measures::Image(_) => f64::NAN,
         }
     }
 }

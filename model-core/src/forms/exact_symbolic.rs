@@ -19,10 +19,13 @@ pub fn exact_symbolic(chain: &Chain, observable: ObservableId) -> Result<Vec<Pol
     let axes: Vec<Axis> = shown
         .iter()
         .map(|reading| {
-            reading.component().ok_or_else(|| FormError::NotExact {
-                observable: chain.observable(observable).name.clone(),
-                reading: reading.words(),
-            })
+            let (observable, name) = (chain.observable(observable).name.clone(), reading.words());
+            let why = if reading.image().is_some() {
+                FormError::Image { observable, reading: name }
+            } else {
+                FormError::NotExact { observable, reading: name }
+            };
+            reading.component().ok_or(why)
         })
         .collect::<Result<_, _>>()?;
     let with_errors = transformed(chain, observable, Clone::clone)?;

@@ -84,6 +84,17 @@ pub enum FormError {
         /// The reading in words.
         reading: String,
     },
+    /// An image point.
+    #[error(
+        "the {reading} of `{observable}` has no closed form yet: image points are computed, and their formulas are not written; \
+         use `eval`, `generate`, `budget` and `calibrate`, or derive the point in the frame of the camera: `point(…) of target in camera`"
+    )]
+    Image {
+        /// The observable.
+        observable: String,
+        /// The reading in words.
+        reading: String,
+    },
     /// A reading without truncation.
     #[error(
         "the {reading} of `{observable}` has no exact form without an arc tangent or a root; claim it to an order, or components: \
@@ -101,7 +112,7 @@ impl FormError {
     /// Whether it says that a reading has no closed form, while the chain it is of is as it should be.
     #[must_use]
     pub fn is_of_no_closed_form(&self) -> bool {
-        matches!(self, Self::Root { .. } | Self::NotSmooth { .. })
+        matches!(self, Self::Root { .. } | Self::NotSmooth { .. } | Self::Image { .. })
     }
 
     pub(crate) fn new(body: &str, axis: Axis, error: AlgebraError) -> Self {
@@ -113,6 +124,7 @@ impl FormError {
         match why {
             NoSeries::Root => Self::Root { observable, reading },
             NoSeries::NotSmooth => Self::NotSmooth { observable, reading },
+            NoSeries::Image => Self::Image { observable, reading },
         }
     }
 }

@@ -25,6 +25,8 @@ pub(super) enum NoSeries {
     Root,
     /// It is no smooth function of the errors where they are zero.
     NotSmooth,
+    /// It is an image point.
+    Image,
 }
 
 /// The error of a reading of a vector that is given by degree in the errors, from 0 to the order.
@@ -44,6 +46,7 @@ pub(super) fn read(reading: &Reading, parts: &[[Poly; 3]]) -> Result<ReadSeries,
         }
         Measures::Range => vector.range(),
         Measures::OffAxis => Err(NoSeries::NotSmooth),
+        Measures::Image(_) => Err(NoSeries::Image),
         Measures::Rotation(_) => unreachable!("how a body is turned is read of its three axes"),
     }
 }

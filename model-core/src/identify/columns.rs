@@ -3,6 +3,7 @@
 //! They are carried along the chain, as numbers, so that no form is ever multiplied out. A row may be stretched: an elevation
 //! and a range leave out their root, which is the same for all errors.
 
+use super::image::{self, Camera};
 use super::pair::Pair;
 use super::place::Place;
 use crate::algebra::{AngleSum, Poly};
@@ -11,7 +12,7 @@ use crate::chain::{Chain, Observable, ObservableId, ObservableKind, TransformKin
 use crate::forms::{FormError, error_table};
 use crate::symbol::SymbolId;
 
-type Vector = [Pair; 3];
+pub(super) type Vector = [Pair; 3];
 
 /// One factor on the way to an observable, taken apart by degree in the errors.
 struct Step {
@@ -30,6 +31,8 @@ pub(super) struct Evaluator {
     steps: Vec<Step>,
     /// Each component without errors, and what multiplies each error in it.
     vector: [(Poly, Vec<(usize, Poly)>); 3],
+    /// The numbers of the camera likewise, where an image point is observed.
+    camera: Option<Camera>,
     is_point: bool,
     shown: Vec<Reading>,
     errors: usize,
@@ -66,6 +69,10 @@ impl Evaluator {
         Ok(Self {
             steps: chain.way(id).into_iter().map(step).collect::<Result<_, FormError>>()?,
             vector: observable.components.each_ref().map(|poly| (grade(poly, 0), linear(poly))),
+            camera: observable
+                .image
+                .as_ref()
+                .map(|image| image.intrinsics.each_ref().map(|poly| (grade(poly, 0), linear(poly)))),
             is_point: observable.kind == ObservableKind::Point,
             shown: observable.shown.clone(),
             errors: errors.len(),
@@ -129,6 +136,9 @@ impl Evaluator {
                 add(&mut added[*error], *axis, place.value(part)?);
             }
         }
+        if let Some(camera) = &self.camera {
+            return image::rows(camera, &self.shown, nominal, &added, place);
+        }
         let row = |reading: &Reading| -> Vec<Pair> {
             added.iter().zip(&turns).map(|(&added, &turn)| slope(reading, nominal, added, turn)).collect()
         };
@@ -156,6 +166,7 @@ fn slope(reading: &Reading, nominal: Vector, added: Vector, turn: Vector) -> Pai
         Measures::Range => dot(nominal, added),
         Measures::Rotation(axis) => turn[axis.index()],
         Measures::OffAxis => unreachable!("it has no slope, and no evaluator"),
+        Measures::Image(_) => unreachable!("image points have slopes of their own"),
     }
 }
 

@@ -13,6 +13,7 @@ mod cancel;
 mod candidate;
 mod columns;
 mod elimination;
+mod image;
 mod modular;
 mod pair;
 mod place;
@@ -233,9 +234,9 @@ impl From<TooLarge> for OutOfReach {
 impl From<FormError> for OutOfReach {
     fn from(error: FormError) -> Self {
         match error {
-            FormError::Root { .. } | FormError::Factor { error: AlgebraError::TooLarge, .. } => {
-                Self::ForFormulas
-            }
+            FormError::Root { .. }
+            | FormError::Image { .. }
+            | FormError::Factor { error: AlgebraError::TooLarge, .. } => Self::ForFormulas,
             FormError::Factor { .. } | FormError::NotSmooth { .. } | FormError::NotExact { .. } => {
                 Self::For(error)
             }

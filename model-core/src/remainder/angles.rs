@@ -45,7 +45,7 @@ impl Seen {
             }),
             Measures::Elevation { .. } | Measures::ZenithDistance { .. } => self.elevation(length, distance),
             Measures::Range => (error * error).half().over(left(length)).map(|longer| rest + longer),
-            Measures::OffAxis | Measures::Rotation(_) => {
+            Measures::OffAxis | Measures::Rotation(_) | Measures::Image(_) => {
                 unreachable!("of these no vector says how far they are off")
             }
         };

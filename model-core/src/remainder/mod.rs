@@ -28,6 +28,7 @@ mod words;
 
 use crate::chain::reading::{Measures, Reading};
 use crate::chain::{Chain, ObservableId};
+use crate::forms::FormError;
 use crate::symbol::SymbolId;
 use sight::Sight;
 use upper::Upper;
@@ -146,6 +147,9 @@ fn has_first_order(chain: &Chain, id: ObservableId) -> Result<(), DomainError> {
     let name = || observable.name.clone();
     if let Some(other) = observable.of_other_unit() {
         return Err(DomainError::Units { observable: name(), one: observable.label(0), other: other.word });
+    }
+    if let Some(reading) = observable.shown.iter().find(|reading| reading.image().is_some()) {
+        return Err(FormError::Image { observable: name(), reading: reading.words() }.into());
     }
     let is_rough = |reading: &&Reading| reading.measures == Measures::OffAxis;
     match observable.shown.iter().find(is_rough) {

@@ -104,9 +104,11 @@ impl<'a> Sight<'a> {
                 3 - zero.axis.index() - through.axis.index()
             }
             Measures::Elevation { up } | Measures::ZenithDistance { up } => up.axis.index(),
-            Measures::Component(_) | Measures::Range | Measures::OffAxis | Measures::Rotation(_) => {
-                return (Poly::zero(), Poly::zero());
-            }
+            Measures::Component(_)
+            | Measures::Range
+            | Measures::OffAxis
+            | Measures::Rotation(_)
+            | Measures::Image(_) => return (Poly::zero(), Poly::zero()),
         };
         let others = (0..3).filter(|axis| *axis != up).map(|axis| &self.nominal[axis]);
         (self.nominal[up].clone(), sum_of_squares(others))

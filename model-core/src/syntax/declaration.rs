@@ -3,6 +3,7 @@
 
 use proc_macro2::{Ident, Span};
 
+use crate::chain::image::INTRINSICS;
 use crate::expr::Expr;
 
 /// `chain Name { … }`.
@@ -145,7 +146,7 @@ pub struct ObserveStatement {
     pub name: Ident,
     /// What is read of the vector, in order; nothing for the vector itself.
     pub readings: Vec<ReadingTerm>,
-    /// `direction`, `point` or `orientation`, as written.
+    /// `direction`, `point`, `orientation` or `image`, as written.
     pub kind: Ident,
     /// The components; `None` for one that could not be read.
     pub components: [Option<Expr<Span>>; 3],
@@ -153,10 +154,21 @@ pub struct ObserveStatement {
     pub body: Ident,
     /// The name of the body in whose frame it is seen, if one is given.
     pub frame: Option<Ident>,
+    /// What is said of the camera, where an image point is observed.
+    pub image: Option<Box<ImageTerm>>,
     /// How its line of sight is bent.
     pub bent: Option<Box<BentTerm>>,
     /// The last word before the `;`.
     pub last: Span,
+}
+
+/// `of flange; fx, fy, cx, cy, k1, k2, p1, p2`
+#[derive(Debug, Clone)]
+pub struct ImageTerm {
+    /// The body that carries the point, if one is given.
+    pub target: Option<Ident>,
+    /// The numbers of the camera; `None` for one that could not be read.
+    pub intrinsics: [Option<Expr<Span>>; INTRINSICS],
 }
 
 /// `bent up by refraction*tan(zenith)`
@@ -246,7 +258,8 @@ impl Declaration {
                 }
                 Statement::Observe(observe) => {
                     let bent = observe.bent.iter().flat_map(|bent| &bent.amount);
-                    observe.components.iter().flatten().chain(bent).collect()
+                    let intrinsics = observe.image.iter().flat_map(|image| image.intrinsics.iter().flatten());
+                    observe.components.iter().flatten().chain(intrinsics).chain(bent).collect()
                 }
                 Statement::Gravity(gravity) => gravity.components.iter().flatten().collect(),
                 Statement::Constant(_) | Statement::Input(_) | Statement::Symbol(_) => Vec::new(),

@@ -5,6 +5,7 @@
 
 mod amount;
 pub mod declaration;
+mod image;
 mod number;
 mod print;
 mod statements;
@@ -17,6 +18,7 @@ use syn::buffer::TokenBuffer;
 
 pub use amount::{FUNCTIONS, RAMP};
 pub use declaration::Declaration;
+pub use image::IMAGE;
 pub use statements::ORIENTATION;
 
 use crate::expr::Expr;

@@ -7,7 +7,7 @@ use super::ORIENTATION;
 use super::amount::{FUNCTIONS, RAMP};
 use super::declaration::{
     AxisTerm, BetweenTerm, BodyStatement, ConstantStatement, Declaration, FactorGroup, FactorTerm,
-    GravityStatement, InputStatement, ObserveStatement, ReadingTerm, Statement, SymbolStatement,
+    GravityStatement, ImageTerm, InputStatement, ObserveStatement, ReadingTerm, Statement, SymbolStatement,
 };
 use crate::expr::{Expr, Node};
 
@@ -67,6 +67,7 @@ impl Display for Declaration {
                     components,
                     body,
                     frame,
+                    image,
                     bent,
                     last: _,
                 }) => {
@@ -76,6 +77,10 @@ impl Display for Declaration {
                     write_readings(f, readings)?;
                     if kind == ORIENTATION {
                         write!(f, "{kind} of {body}")?;
+                    } else if let Some(image) = image {
+                        write!(f, "{kind}({x}, {y}, {z}")?;
+                        write_image(f, image)?;
+                        write!(f, ") of {body}")?;
                     } else {
                         write!(f, "{kind}({x}, {y}, {z}) of {body}")?;
                     }
@@ -130,6 +135,17 @@ fn write_readings(f: &mut Formatter<'_>, readings: &[ReadingTerm]) -> fmt::Resul
         }
     }
     if readings.is_empty() { Ok(()) } else { write!(f, " of ") }
+}
+
+/// ` of flange; fx, fy, cx, cy, k1, k2, p1, p2`
+fn write_image(f: &mut Formatter<'_>, image: &ImageTerm) -> fmt::Result {
+    if let Some(target) = &image.target {
+        write!(f, " of {target}")?;
+    }
+    for (index, number) in image.intrinsics.iter().enumerate() {
+        write!(f, "{}{}", if index > 0 { ", " } else { "; " }, Written(number.as_ref()))?;
+    }
+    Ok(())
 }
 
 /// An amount, or nothing where it could not be read.

@@ -9,6 +9,7 @@ use super::declaration::{
     AxisTerm, BentTerm, BetweenTerm, BodyStatement, ConstantStatement, Declaration, FactorGroup, FactorTerm,
     GravityStatement, InputStatement, ObserveStatement, ReadingTerm, Statement, SymbolStatement,
 };
+use super::image::{IMAGE, image};
 use super::tokens::Reader;
 use crate::algebra::Rational;
 use crate::expr::{Expr, Node};
@@ -300,8 +301,15 @@ fn observe(reader: &mut Reader<'_, '_>, documentation: String) -> Read<ObserveSt
         }
         reader.keyword("of", READING_HELP)?;
     }
-    let kind = reader.name("`direction`, `point` or `orientation`").map_err(|m| m.with_help(OBSERVE_HELP))?;
-    let components = if kind == ORIENTATION {
+    let kind = reader
+        .name("`direction`, `point`, `orientation` or `image`")
+        .map_err(|m| m.with_help(OBSERVE_HELP))?;
+    let mut seen = None;
+    let components = if kind == IMAGE {
+        let (components, term) = image(reader)?;
+        seen = Some(Box::new(term));
+        components
+    } else if kind == ORIENTATION {
         // It has none; what stands for them is never looked at.
         let number = |value| Some(Expr { node: Node::Number(value), place: kind.span() });
         [number(Rational::ZERO), number(Rational::ZERO), number(Rational::ONE)]
@@ -320,7 +328,18 @@ fn observe(reader: &mut Reader<'_, '_>, documentation: String) -> Read<ObserveSt
     let bent = bent(reader)?;
     let last = reader.last;
     reader.end_of_statement()?;
-    Ok(ObserveStatement { documentation, name, readings, kind, components, body, frame, bent, last })
+    Ok(ObserveStatement {
+        documentation,
+        name,
+        readings,
+        kind,
+        components,
+        body,
+        frame,
+        image: seen,
+        bent,
+        last,
+    })
 }
 
 /// Whether a reading stands here and not the vector itself: a word, perhaps with axes, before `,` or before `of` and a

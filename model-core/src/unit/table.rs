@@ -68,6 +68,7 @@ pub(super) const UNITS: &[Unit] = &[
     plain(Length, "mile", &["miles"], &["mi"], [1_609_344, 1_000]),
     plain(Length, "nmi", &[], &[], [1_852, 1]),
     plain(Number, "1", &[], &[], [1, 1]),
+    plain(Number, "px", &["pixel", "pixels"], &[], [1, 1]),
     plain(Number, "%", &["percent"], &[], [1, 100]),
     plain(Number, "ppm", &[], &[], [1, 1_000_000]),
     plain(Number, "ppb", &[], &[], [1, 1_000_000_000]),

@@ -31,6 +31,8 @@ pub enum Purpose<'a> {
     },
     /// A component of an observable.
     Component(&'a ObserveStatement),
+    /// A number of the camera of an observable.
+    Intrinsic(&'a ObserveStatement),
     /// A component of the direction of gravity.
     Gravity,
     /// By how much a line of sight is bent.
@@ -77,6 +79,9 @@ pub fn collect<'a>(
                 for component in &observe.components {
                     add(component.as_ref(), Purpose::Component(observe));
                 }
+                for number in observe.image.iter().flat_map(|image| &image.intrinsics) {
+                    add(number.as_ref(), Purpose::Intrinsic(observe));
+                }
                 let bent = observe.bent.as_ref();
                 add(bent.and_then(|bent| bent.amount.as_ref()), Purpose::Bend(observe));
             }
@@ -95,7 +100,7 @@ pub fn collect<'a>(
 fn turned(value: Poly, purpose: &Purpose<'_>, scope: &Scope) -> Poly {
     let (role, TransformKind::Rotation) = (match purpose {
         Purpose::Factor { role, kind, .. } => (*role, *kind),
-        Purpose::Component(_) | Purpose::Gravity | Purpose::Bend(_) => return value,
+        Purpose::Component(_) | Purpose::Intrinsic(_) | Purpose::Gravity | Purpose::Bend(_) => return value,
     }) else {
         return value;
     };

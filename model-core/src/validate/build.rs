@@ -12,7 +12,8 @@ use super::scope::documentation;
 use super::sight;
 use super::words::{self, GROUND, OBSERVABLE_KINDS, meaning};
 use crate::algebra::{Poly, Rational};
-use crate::chain::reading::{COMPONENTS, ROTATION, Reading};
+use crate::chain::image::Image;
+use crate::chain::reading::{COMPONENTS, IMAGE, ROTATION, Reading};
 use crate::chain::{Body, BodyId, Chain, Factor, Observable};
 use crate::mistake::Mistake;
 use crate::symbol::{Quantity, Symbol, SymbolId, SymbolKind};
@@ -58,12 +59,14 @@ pub fn chain(subject: &Subject<'_>) -> Result<Chain, Vec<Mistake<Span>>> {
                     .unwrap_or_else(|| unreachable!("`{}` is no kind: {RULED}", observe.kind)),
                 components: components(subject, observe),
                 body: known(&observe.body),
-                frame: observe.frame.as_ref().and_then(above_ground),
+                frame: seen_in(observe).and_then(above_ground),
                 shown: match observe.readings.as_slice() {
                     [] if observe.kind == ORIENTATION => ROTATION.to_vec(),
+                    [] if observe.image.is_some() => IMAGE.to_vec(),
                     [] => COMPONENTS.to_vec(),
                     readings => readings.iter().map(reading).collect(),
                 },
+                image: observe.image.as_ref().map(|_| Box::new(image(subject, observe))),
                 bend: None,
             })
             .collect(),
@@ -135,6 +138,20 @@ fn components(subject: &Subject<'_>, observe: &ObserveStatement) -> [Poly; 3] {
         Some(components) => components,
         // An orientation states none, and needs none.
         None => [0; 3].map(|number| Poly::constant(Rational::from(number))),
+    }
+}
+
+/// The body in whose frame an observable is seen, or to which an image point is fixed.
+fn seen_in(observe: &ObserveStatement) -> Option<&Ident> {
+    observe.image.as_ref().map_or(observe.frame.as_ref(), |image| image.target.as_ref())
+}
+
+fn image(subject: &Subject<'_>, observe: &ObserveStatement) -> Image {
+    let own = |amount: &&Amount<'_>| matches!(amount.purpose, Purpose::Intrinsic(owner) if std::ptr::eq(owner, observe));
+    let numbers: Vec<Poly> = subject.amounts.iter().filter(own).map(value).collect();
+    match numbers.try_into() {
+        Ok(intrinsics) => Image { intrinsics },
+        Err(_) => unreachable!("a camera has all of its numbers: {RULED}"),
     }
 }
 

@@ -23,7 +23,7 @@ pub fn inferred(scope: &Scope, amount: &Amount<'_>) -> Vec<(SymbolId, Quantity)>
     let moved = match &amount.purpose {
         Purpose::Factor { kind, .. } => quantity_moved(*kind),
         Purpose::Bend(_) => Quantity::Angle,
-        Purpose::Component(_) | Purpose::Gravity => return Vec::new(),
+        Purpose::Component(_) | Purpose::Intrinsic(_) | Purpose::Gravity => return Vec::new(),
     };
     let by_error = value.graded_part(|id| scope.is_error(id), 1).collect_by(|id| scope.is_error(id));
     let mut found = Vec::new();

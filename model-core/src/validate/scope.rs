@@ -87,7 +87,7 @@ impl Scope {
                     });
                 }
                 Statement::Body(body) => scope.declare_used(body, &fixed),
-                Statement::Observe(observe) => scope.declare_bent(observe, &fixed),
+                Statement::Observe(observe) => scope.declare_observed(observe, &fixed),
                 Statement::Symbol(_) | Statement::Gravity(_) => {}
             }
         }
@@ -161,11 +161,12 @@ impl Scope {
         }
     }
 
-    /// The errors that a bending of a line of sight uses first.
-    fn declare_bent(&mut self, observe: &ObserveStatement, fixed: &BTreeMap<String, SymbolKind>) {
-        let Some(bent) = &observe.bent else { return };
-        self.is_complete &= bent.amount.is_some();
-        for (name, _) in bent.amount.iter().flat_map(|amount| amount.names()) {
+    /// The errors that the numbers of a camera or a bending of a line of sight use first.
+    fn declare_observed(&mut self, observe: &ObserveStatement, fixed: &BTreeMap<String, SymbolKind>) {
+        let intrinsics = observe.image.iter().flat_map(|image| &image.intrinsics);
+        let amounts: Vec<_> = intrinsics.chain(observe.bent.iter().map(|bent| &bent.amount)).collect();
+        self.is_complete &= amounts.iter().all(|amount| amount.is_some());
+        for (name, _) in amounts.into_iter().flatten().flat_map(|amount| amount.names()) {
             if !fixed.contains_key(name) {
                 self.declare(Entry {
                     name: name.to_owned(),

@@ -29,11 +29,12 @@ pub const TRANSFORMS: [(&str, (TransformKind, Axis)); 6] = [
     ("Tz", (TransformKind::Translation, Axis::Z)),
 ];
 
-/// The kinds of observables; like a direction, an orientation is not moved by shifts.
-pub const OBSERVABLE_KINDS: [(&str, ObservableKind); 3] = [
+/// The kinds of observables; like a direction, an orientation is not moved by shifts. An image is of a point.
+pub const OBSERVABLE_KINDS: [(&str, ObservableKind); 4] = [
     ("direction", ObservableKind::Direction),
     ("point", ObservableKind::Point),
     (crate::syntax::ORIENTATION, ObservableKind::Direction),
+    (crate::syntax::IMAGE, ObservableKind::Point),
 ];
 
 /// The axes that readings are told by.

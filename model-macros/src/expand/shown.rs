@@ -17,6 +17,7 @@ pub fn meaning(context: &Context<'_>, id: ObservableId) -> (String, String) {
         documentation => markdown(documentation),
     };
     let frame = match observable.frame {
+        _ if observable.is_image() => "in the image".to_owned(),
         None => "in the ground frame".to_owned(),
         Some(frame) => format!("in the frame of {}", context.chain.body(frame).name),
     };
@@ -25,6 +26,7 @@ pub fn meaning(context: &Context<'_>, id: ObservableId) -> (String, String) {
             let unit = |reading: &Reading| match reading.unit(observable.kind) {
                 "rad" => "in radians",
                 "m" => "in metres",
+                "px" => "in pixels",
                 _ => "without unit",
             };
             let shown = observable.shown.iter().map(|one| format!("{}, {}", one.describe(), unit(one)));

@@ -22,6 +22,8 @@ pub enum NoiseOf {
     Lengths,
     /// Places across a beam, which is as far off as an angle makes it at the range.
     Across,
+    /// Places in an image.
+    Pixels,
 }
 
 /// What a chain predicts for one observation.
@@ -31,6 +33,8 @@ pub enum Predicted {
     Vector,
     /// The directions of the three axes of the body that carries it.
     Axes,
+    /// Where the camera sees the point: u and v in pixels, and how far in front of it the point is, m.
+    Image,
 }
 
 impl Predicted {
@@ -38,7 +42,7 @@ impl Predicted {
     #[must_use]
     pub fn vectors(self) -> usize {
         match self {
-            Self::Vector => 1,
+            Self::Vector | Self::Image => 1,
             Self::Axes => 3,
         }
     }

@@ -21,6 +21,11 @@ pub enum Measured {
     },
     /// What takes vectors of the body into the frame that it is seen in.
     Orientation(UnitQuaternion<f64>),
+    /// Where a point is in the image of a camera.
+    Pixel {
+        /// Along the rows of pixels, and along the columns.
+        uv_px: [f64; 2],
+    },
     /// The length of a wire, or the distance of two points.
     Length {
         /// In metres.
@@ -44,6 +49,7 @@ impl Measured {
             Self::Range { .. }
             | Self::Azimuth { .. }
             | Self::Orientation(_)
+            | Self::Pixel { .. }
             | Self::Length { .. }
             | Self::Readings => None,
         }
@@ -82,6 +88,7 @@ impl Measured {
             Self::Range { range_m: value }
             | Self::Azimuth { azimuth_rad: value }
             | Self::Length { length_m: value } => std::slice::from_ref(value),
+            Self::Pixel { uv_px } => uv_px,
             Self::Readings => &[],
         }
     }
@@ -101,6 +108,7 @@ impl Measured {
             | Self::Azimuth { azimuth_rad: number }
             | Self::Length { length_m: number } => number.abs(),
             Self::Orientation(_) => 1.0,
+            Self::Pixel { uv_px: [u, v] } => u.abs().max(v.abs()),
             Self::Readings => 0.0,
         }
     }

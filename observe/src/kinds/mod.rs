@@ -10,6 +10,7 @@ mod direction;
 mod distance;
 mod fixed;
 mod orientation;
+mod pixel;
 mod plane;
 mod point;
 mod range;
@@ -91,6 +92,8 @@ table! {
     /// How a body is turned; three residual components, rad: the vector about which, and by the length of which, the body would
     /// have to be turned further, along the axes of the frame that it is seen in.
     Orientation = orientation;
+    /// Where a camera sees a point; two residual components u and v, in pixels.
+    Pixel = pixel;
 }
 
 impl Measure {

@@ -20,6 +20,8 @@ pub enum Observes {
     Point,
     /// How a body is turned.
     Orientation,
+    /// Where a camera sees a point.
+    Image,
 }
 
 /// Which readings of an instrument may stand in the columns, where an observable shows readings and no vector.

@@ -40,6 +40,7 @@ pub fn noise(diagnosis: &Diagnosis) -> Vec<String> {
             NoiseOf::Angles => "of angles",
             NoiseOf::Lengths => "of lengths",
             NoiseOf::Across => "sideways to the beam",
+            NoiseOf::Pixels => "in the image",
         };
         said.push(format!(
             "the noise {of} depends on the joints. The logarithm of its variance is {}",

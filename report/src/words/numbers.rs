@@ -25,6 +25,7 @@ pub fn reading(unit: SiUnit, largest: f64) -> Reading {
         SiUnit::METRE if largest < 1e-4 => "µm",
         SiUnit::METRE if largest < 1.0 => "mm",
         SiUnit::METRE => "m",
+        SiUnit::PIXEL => "px",
         _ if per == SiUnit::ONE && largest < 1e-3 && largest > 0.0 => "ppm",
         _ => "",
     };

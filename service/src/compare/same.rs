@@ -78,6 +78,10 @@ fn bodies(chain: &Chain) -> Vec<String> {
 }
 
 fn observables(chain: &Chain) -> Vec<String> {
+    let camera = |observable: &model_core::Observable| -> String {
+        let numbers = observable.image.iter().flat_map(|image| &image.intrinsics);
+        numbers.map(|number| format!(" {}", print::text(number, chain))).collect()
+    };
     let one = |observable: &model_core::Observable| {
         let components =
             observable.components.iter().map(|part| print::text(part, chain)).collect::<Vec<_>>();
@@ -92,6 +96,7 @@ fn observables(chain: &Chain) -> Vec<String> {
             labels.join(", "),
         )
         .to_lowercase()
+            + &camera(observable)
     };
     chain.observables.iter().map(one).collect()
 }

@@ -44,6 +44,7 @@ pub fn title_of(chain: &Chain, form: &Form) -> String {
     let kind = match observable.kind {
         ObservableKind::Direction if observable.is_orientation() => "orientation",
         ObservableKind::Direction => "direction",
+        ObservableKind::Point if observable.is_image() => "image",
         ObservableKind::Point => "point",
     };
     let mut units: Vec<&str> = observable.shown.iter().map(|reading| reading.unit(observable.kind)).collect();

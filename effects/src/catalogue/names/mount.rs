@@ -71,7 +71,7 @@ impl Mount {
 /// What is observed, in the ground frame.
 fn observed(setting: &Setting<'_>, observable: ObservableId) -> Option<[Poly; 3]> {
     let shown = setting.chain.observable(observable);
-    if shown.frame.is_some() || shown.is_orientation() {
+    if shown.frame.is_some() || shown.is_orientation() || shown.is_image() {
         return None;
     }
     let &body = setting.chain.path(shown.body).first()?;

@@ -3,6 +3,7 @@
 mod amounts;
 mod bodies;
 mod factors;
+mod images;
 mod names;
 mod observables;
 mod quantities;
@@ -43,6 +44,8 @@ pub const RULES: &[(&str, Rule)] = &[
     ("an observable shows readings that fit it, each once", readings::readings_are_known),
     ("an observable is seen in the frame of another body", readings::frame_exists),
     ("an observable is made of constants and inputs", observables::components_are_known),
+    ("a camera has numbers of its own, and sees what it does not carry", images::image_is_of_another_body),
+    ("a camera's numbers are constants, inputs and errors", images::camera_has_numbers),
     ("a direction has a length", observables::direction_is_not_zero),
     ("an angle is between an observed direction and up", sight::angle_is_from_up),
     ("what is bent up is a direction, by errors", sight::direction_is_bent_by_errors),

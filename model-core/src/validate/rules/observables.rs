@@ -42,7 +42,7 @@ pub fn components_are_known(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Sp
         let what = match amount.purpose {
             Purpose::Component(_) => "an observable",
             Purpose::Gravity => "the direction of gravity",
-            Purpose::Factor { .. } | Purpose::Bend(_) => continue,
+            Purpose::Factor { .. } | Purpose::Intrinsic(_) | Purpose::Bend(_) => continue,
         };
         for (name, place) in amount.written.names() {
             let kind = match subject.scope.lookup(name).map(|entry| entry.kind) {

@@ -56,7 +56,6 @@ pub use hold_out::HoldOut;
 pub use load::{Loaded, Open, OpenTable};
 pub use next::{NextObjects, NextPlaces, NextPoses};
 pub use orientation::Form as OrientationForm;
-pub use plan::{HoldOut, Plan, Search, SourcePlan};
 pub use plan::{Plan, Search, SourcePlan};
 pub use sample::{Change, Changed, Place, Read, Sample, SampledColumn, WrittenColumn};
 pub use timeless::Timeless;

@@ -177,7 +177,15 @@ fn stream(seed: u64, purpose: u64) -> ChaCha8Rng {
 
 /// The observables that are to be measured: those asked for, or all whose noise was given.
 fn measured(chain: &Chain, names: &[String], noise: Noise) -> Result<Vec<ObservableId>, Failure> {
-    let all = observables(chain, names)?;
+    let (images, all): (Vec<_>, Vec<_>) =
+        observables(chain, names)?.into_iter().partition(|&id| chain.observable(id).is_image());
+    if let Some(&image) = images.first() {
+        let why = format!("`{}` shows pixels, which are not simulated", chain.observable(image).name);
+        if !names.is_empty() || all.is_empty() {
+            return Err(Failure::Input(format!("{why}: name a direction or point with --observable")));
+        }
+        terminal::warn(format_args!("{why}; left out"));
+    }
     let (chosen, silent): (Vec<_>, Vec<_>) =
         all.into_iter().partition(|&id| measures_of(chain.observable(id)).all(|one| noise.of(one).is_some()));
     let silent: Vec<&str> = silent.into_iter().map(|id| chain.observable(id).name.as_str()).collect();

@@ -115,6 +115,12 @@ impl Solver {
     /// No joint moves the observable, or one that is no angle has no range to start from.
     pub fn new(chain: &Chain, observable: ObservableId, search: Search<'_>) -> Result<Self, Refusal> {
         let shown = chain.observable(observable);
+        if shown.is_image() {
+            let name = &shown.name;
+            return Err(Refusal::Input(format!(
+                "`{name}` shows pixels, for which no readings are solved: name a direction or point"
+            )));
+        }
         let goal = match shown.kind {
             ObservableKind::Direction => Goal::Direction,
             ObservableKind::Point => Goal::Point,

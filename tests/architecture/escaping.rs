@@ -15,6 +15,7 @@ const MARKUP: &[&str] = &[
     "report/src/page/mod.rs",
     "report/src/page/pictures.rs",
     "service/src/budget/page.rs",
+    "service/src/plan/page.rs",
 ];
 
 /// What escapes by hand.

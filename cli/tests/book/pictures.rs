@@ -190,14 +190,15 @@ fn pictures_of_pages_are_what_the_commands_draw() {
     );
 }
 
-/// Pages that are tables of measurements.
-const TABLES: [&str; 6] = [
+/// Pages that are tables of measurements, or of numbers that decide.
+const TABLES: [&str; 7] = [
     "algebra/speed",
     "calibration/growth",
     "calibration/instruments",
     "codegen/speed",
     "diagnosis/blind",
     "diagnosis/evaluation",
+    "diagnosis/thresholds",
 ];
 
 #[test]

@@ -27,6 +27,7 @@ mod objects;
 mod observations;
 mod orientations;
 mod outage;
+mod pixels;
 mod placed;
 mod ranges;
 mod readings;

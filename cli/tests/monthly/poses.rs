@@ -192,10 +192,10 @@ fn poses_out_of_reach_and_limits_are_told_by_row() {
         run.stderr.contains("1 of 2 poses are not reached") && run.stderr.contains("row 2 (out of reach"),
         "{run}"
     );
-    // A limit that the first pose cannot keep.
+    // What ends at a limit is told so.
     let run = solve(&folder, &["--pose", "vector", "--range", "q1=2 rad..2.2 rad"]);
     assert_eq!(run.code, 0, "{run}");
-    assert!(run.stderr.contains("2 of 2 poses are not reached"), "{run}");
+    assert!(run.stderr.contains("row 2 (at a limit"), "{run}");
 }
 
 #[test]

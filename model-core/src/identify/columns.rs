@@ -4,15 +4,13 @@
 //! and a range leave out their root, which is the same for all errors.
 
 use super::image::{self, Camera};
-use super::pair::Pair;
+use super::pair::{Pair, Vector};
 use super::place::Place;
 use crate::algebra::{AngleSum, Poly};
 use crate::chain::reading::{Measures, Reading, SignedAxis};
 use crate::chain::{Chain, Observable, ObservableId, ObservableKind, TransformKind};
 use crate::forms::{FormError, error_table};
 use crate::symbol::SymbolId;
-
-pub(super) type Vector = [Pair; 3];
 
 /// One factor on the way to an observable, taken apart by degree in the errors.
 struct Step {

@@ -1,7 +1,6 @@
 //! What each error adds to an image point at a place, to first order.
 
-use super::columns::Vector;
-use super::pair::Pair;
+use super::pair::{Pair, Vector};
 use super::place::Place;
 use crate::algebra::Poly;
 use crate::chain::image::{Field, INTRINSICS, project};

@@ -14,6 +14,9 @@ pub(super) struct Pair {
 /// How far a simple fraction may be from the float beside it, as a share of it.
 const NEAR: f64 = 1e-6;
 
+/// The x, y and z of a vector.
+pub(super) type Vector = [Pair; 3];
+
 impl Pair {
     pub(super) const ZERO: Self = Self { residue: 0, value: 0.0 };
     pub(super) const ONE: Self = Self { residue: 1, value: 1.0 };

@@ -27,6 +27,8 @@ mod seeing;
 mod tangent_plane;
 mod written;
 
+use model_core::{Observable, ObservableKind};
+
 use crate::SiUnit;
 use crate::unknowns::Shape;
 
@@ -97,6 +99,17 @@ table! {
 }
 
 impl Measure {
+    /// What is measured of an observable where nobody says it: a whole direction, point or orientation. None of single readings.
+    #[must_use]
+    pub fn whole(observable: &Observable) -> Option<Self> {
+        match observable.kind {
+            _ if observable.is_orientation() => Some(Self::Orientation),
+            _ if !observable.is_vector() => None,
+            ObservableKind::Direction => Some(Self::Direction),
+            ObservableKind::Point => Some(Self::Point),
+        }
+    }
+
     /// All that is particular to it.
     #[must_use]
     pub fn kind(self) -> &'static Kind {

@@ -12,7 +12,7 @@ mod text;
 use calibration::design::campaign::{self, Campaign, Wanted};
 use model_core::budget::spread;
 use model_core::names::{self, listed};
-use model_core::{Chain, ObservableId, ObservableKind, SymbolId, SymbolKind};
+use model_core::{Chain, ObservableId, SymbolId, SymbolKind};
 use observe::{Measure, SiUnit};
 
 use crate::refusal::Refusal;
@@ -119,18 +119,11 @@ pub fn errors_named(chain: &Chain, patterns: &[String]) -> Result<Vec<SymbolId>,
 /// It shows single readings.
 pub fn measure_of(chain: &Chain, observable: ObservableId) -> Result<Measure, Refusal> {
     let shown = chain.observable(observable);
-    if shown.is_orientation() {
-        return Ok(Measure::Orientation);
-    }
-    if !shown.is_vector() {
+    Measure::whole(shown).ok_or_else(|| {
         let name = &shown.name;
-        return Err(Refusal::Input(format!(
+        Refusal::Input(format!(
             "`{name}` shows single readings, and a campaign measures a whole direction or point: name one with --observable"
-        )));
-    }
-    Ok(match shown.kind {
-        ObservableKind::Direction => Measure::Direction,
-        ObservableKind::Point => Measure::Point,
+        ))
     })
 }
 

@@ -29,7 +29,7 @@ fn stars(off_centre: f64) -> String {
 fn study(model: &str) -> String {
     format!(
         "chain = \"mount.chain\"\ndata = \"stars.csv\"\n\n[observed]\nkind = \"direction\"\nx = \"x\"\ny = \"y\"\nz = \"z\"\n\n\
-         [columns]\nazimuth = {{ unit = \"rad\" }}\nelevation = {{ unit = \"rad\" }}\n\n{model}\n"
+         [columns]\nazimuth = {{ column = \"azimuth\", unit = \"rad\" }}\nelevation = {{ column = \"elevation\", unit = \"rad\" }}\n\n{model}\n"
     )
 }
 
@@ -105,7 +105,7 @@ fn a_term_that_is_none_is_refused_with_the_nearest_name() {
         ("[model]\nterms = [\"IA\", \"azimuth_index\"]", "are the same term"),
         ("[model]\nterms = []", "no term is a declared error"),
         ("[model]\nterms = [\"TF\"]", "no term is a declared error"),
-        ("[model]\nterms = [\"IA\", \"gravity flexure\"]", "is a family of"),
+        ("[model]\nterms = [\"IA\", \"gravity\"]", "is a family of"),
         ("[model]\nterms = [\"IA\"]\n[fit]\nfix = { azimuth_index = 0 }", "is fixed under [fit]"),
         ("[model]\nterms = [\"IA\"]\n[search]\neffects = [\"TF\"]", "leave one of them out"),
         ("[model]\nterm = [\"IA\"]", "terms"),

@@ -44,7 +44,8 @@ fn what_is_printed_is_read() {
             let printed =
                 |format| trueaxis(&["derive", path, "--order", &order.to_string(), "--format", format]);
             let derived = printed("json");
-            if derived.code == 2 && derived.stderr.contains("no observable of this chain has a closed form") {
+            let without = ["no observable of this chain has a closed form", "has no closed form yet"];
+            if derived.code == 2 && without.iter().any(|said| derived.stderr.contains(said)) {
                 continue;
             }
             assert_eq!(derived.code, 0, "{path}: {derived}");

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::support::{Folder, Run};
+use super::support::{Folder, Run, root};
 use super::{ARCSEC, Errors, pointing, rows};
 
 const CHAIN: &str = "chain Mount {
@@ -239,4 +239,17 @@ fn refused() {
         let message = message.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(message.contains(part), "{part}: {message}");
     }
+}
+
+#[test]
+fn the_picture_in_the_book_is_the_one_that_is_drawn() {
+    let folder = Folder::new("plan-picture");
+    let chain = root().join("examples/course/mount.chain");
+    let chain = chain.to_str().expect("UTF-8");
+    let asked =
+        ["plan", chain, "--for", "*", "--within", "2 arcsec", "--sigma", "3 arcsec", "--out", "campaign"];
+    let run = folder.trueaxis(&asked);
+    assert_eq!(run.code, 0, "{run}");
+    let kept = std::fs::read_to_string(root().join("docs/src/commands/plan.svg")).expect("a picture");
+    assert!(folder.read("campaign/plan.svg") == kept, "copy {}/campaign/plan.svg anew", folder.0.display());
 }

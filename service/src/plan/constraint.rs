@@ -8,8 +8,11 @@ use std::ops::Range;
 use crate::refusal::Refusal;
 use crate::source::Source;
 
+/// Whether a comparison of two numbers holds.
+type Holds = fn(f64, f64) -> bool;
+
 /// Comparisons, the longer ones first.
-const COMPARISONS: [(&str, fn(f64, f64) -> bool); 4] = [
+const COMPARISONS: [(&str, Holds); 4] = [
     ("<=", |left, right| left <= right),
     (">=", |left, right| left >= right),
     ("<", |left, right| left < right),
@@ -22,7 +25,7 @@ pub struct Constraint {
     /// As it was written.
     pub text: String,
     left: Expr<Range<usize>>,
-    holds: fn(f64, f64) -> bool,
+    holds: Holds,
     right: Expr<Range<usize>>,
 }
 

@@ -15,6 +15,7 @@ mod every_row;
 mod functions;
 mod heard;
 pub(crate) mod held_out;
+mod ladder;
 mod memory;
 mod outliers;
 mod places;
@@ -22,6 +23,7 @@ mod rounds;
 mod stretches;
 mod weighed;
 mod whole_objects;
+mod without;
 
 use std::cell::OnceCell;
 
@@ -176,8 +178,9 @@ pub fn calibrate_telling(
             }
         }
     };
+    let ladder = if is_rounding { None } else { ladder::ladder(&whole, &before, &judged)? };
     let Judged { round, held_out, rms, left_out } = judged;
-    let confirmed = Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, left_out };
+    let confirmed = Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, left_out, ladder };
     let diagnosis = Diagnosis { contest, ..diagnose(&whole, &before, &round.fitted, Ok(confirmed))? };
     let drawn = Shown::of(request.observations, &round.fitted.fit, DRAWN).rows;
     let traces = trace::traces(&whole, &round, &drawn)?;

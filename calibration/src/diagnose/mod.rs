@@ -16,6 +16,7 @@ mod foretold;
 mod function;
 mod harmonics;
 mod instrument;
+mod ladder;
 mod lengths;
 mod misplaced;
 mod misread;
@@ -27,6 +28,7 @@ mod noisy;
 mod of_data;
 mod otherwise;
 mod precision;
+mod reach;
 pub(crate) mod remaining;
 mod rivals;
 pub(crate) mod rms;
@@ -77,6 +79,7 @@ pub use harmonics::Harmonics;
 pub use instrument::{
     BodyShown, ErrorShown, ErrorState, Instrument, JointShown, ObservedShown, ReadingShown,
 };
+pub use ladder::{Ladder, LeftOut, Rung, RungName, WhyNot};
 pub use lengths::LengthsOff;
 pub(crate) use misread::Unsearched;
 pub use mistakes::{Misreading, StatedPlaces};
@@ -86,6 +89,7 @@ pub use noise::{NoiseFound, SerialFound, SeriesNoise, UncertainReading, Variance
 pub use observe::kinds::MeasuredLengths;
 pub use of_data::{of_data, rounding};
 pub use otherwise::Otherwise;
+pub(crate) use reach::largest_plausible;
 pub use precision::{Determined, NotSeparable, Precision, precision};
 pub use remaining::{Looked, Remaining, Where};
 pub use rms::{Beside, Rms};
@@ -157,6 +161,9 @@ pub struct Diagnosis {
     /// Residuals in other units: of directions and orientations beside points.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub beside: Vec<Beside>,
+    /// Models from the instrument as delivered to the one with effects, each judged on held-out rows; absent where nothing was held out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ladder: Option<Ladder>,
     /// The chain with the effects that were found.
     pub instrument: Instrument,
 }
@@ -201,6 +208,8 @@ pub(crate) struct Confirmed<'a> {
     pub as_good: &'a [AsGood],
     /// Effects that were left out again, since few rows speak for them, or held-out rows against them.
     pub left_out: Vec<Caution>,
+    /// Models from the instrument as delivered to the one of the round.
+    pub ladder: Option<Ladder>,
 }
 
 /// What fits and search come to. Without a search the fit alone is told: it failed, or had too few observations.
@@ -228,6 +237,10 @@ pub(crate) fn diagnose(
         cautions.push(Caution::DeclarationNotFitted { steps });
     }
     cautions.extend(confirmed.iter().flat_map(|confirmed| confirmed.left_out.clone()));
+    let most = |unit| largest_plausible(request.second.unwrap_or(observations), unit);
+    cautions = cautions.into_iter().map(|caution| caution.within(most)).collect();
+    let ladder = confirmed.as_ref().ok().and_then(|own| own.ladder.clone());
+    cautions.extend(ladder.as_ref().and_then(Caution::of_ladder));
     cautions.extend(caution::of_noise(&noise, fit.degrees_of_freedom));
     cautions.extend(caution::of_readings(&noise));
     cautions.extend(caution::of_memory(fit));
@@ -306,10 +319,11 @@ pub(crate) fn diagnose(
         remaining: found.remaining,
         harmonics: harmonics::harmonics(&last.chain, observations, before, fit),
         not_shown: found.not_shown,
-        before: rms.first().map_or_else(Rms::default, |own| own.before),
-        after: rms.first().map_or_else(Rms::default, |own| own.after),
+        before: rms.first().map_or_else(Rms::default, |own| own.before.within(most(own.unit))),
+        after: rms.first().map_or_else(Rms::default, |own| own.after.within(most(own.unit))),
         unit: rms.first().map_or(SiUnit::RAD, |own| own.unit),
         beside: rms.iter().skip(1).map(|own| Beside::of(observations, &last.chain, own)).collect(),
+        ladder,
     })
 }
 

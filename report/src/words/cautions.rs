@@ -24,6 +24,13 @@ pub fn caution(caution: &Caution) -> String {
             short(*fitted, *unit),
             times(held_out / fitted)
         ),
+        Caution::SimplerPredictsAsWell { model, simpler, declared, unit, .. } => format!(
+            "On held-out data, {} ({}) predicts as well as all declared errors ({}). These rows are too few or too alike to gain from the \
+             other errors. Hold them at zero, or measure more rows.",
+            ladder::model(*model),
+            size(*simpler, *unit),
+            size(*declared, *unit)
+        ),
         Caution::NotConfirmed { effects, p_value, before, after, unit } => {
             let goes = if after > before { "increases" } else { "hardly changes" };
             format!(

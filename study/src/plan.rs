@@ -5,6 +5,7 @@ use model_core::{Chain, Mistakes, ObservableId, SymbolId, SymbolKind};
 use toml::Spanned;
 
 use super::amount::si;
+use super::asked::Asked;
 use super::column_plan::{ColumnPlan, column_plan};
 use super::estimated::{estimable, matching};
 use super::mistakes::{Gathered, Outcome, Several, every, mistake, plain, unknown, within};
@@ -44,6 +45,8 @@ pub struct Plan {
     pub hold_out: HoldOut,
     /// Where to propose to measure next.
     pub next: Option<NextPoses>,
+    /// What is asked of the answer.
+    pub asked: Asked,
     /// Where the data are to be had, for whoever has not got them.
     pub data_from: Option<String>,
     /// Bare numbers of the study that are hardly in SI.
@@ -199,6 +202,8 @@ impl Study {
         let places = sources.as_ref().and_then(|sources| mistakes.take(self.places(sources)));
         let sizes = sources.as_ref().and_then(|sources| mistakes.take(self.tolerances(&chain, sources)));
         let plausible = mistakes.take(self.plausible(&chain));
+        let asked = sources.as_ref().zip(fit.as_ref());
+        let asked = asked.and_then(|(own, fit)| mistakes.take(self.asked(&chain, own, &fit.estimate)));
         mistakes.none()?;
         let (
             Some(sources),
@@ -211,7 +216,8 @@ impl Study {
             Some(places),
             Some(sizes),
             Some(plausible),
-        ) = (sources, fit, search, hold_out, next, format, sigma, places, sizes, plausible)
+            Some(asked),
+        ) = (sources, fit, search, hold_out, next, format, sigma, places, sizes, plausible, asked)
         else {
             unreachable!("what is missing comes with a mistake")
         };
@@ -232,6 +238,7 @@ impl Study {
             search,
             hold_out,
             next,
+            asked,
             places,
             plausible,
             data_from,

@@ -14,6 +14,7 @@ mod every_row;
 pub mod few;
 mod foretold;
 mod function;
+mod goal;
 mod harmonics;
 mod instrument;
 mod ladder;
@@ -75,6 +76,7 @@ pub use ended::Ended;
 pub use errors::{ErrorFound, Estimable, Part};
 pub use every_row::{EveryRow, Foretold, SharedByFiles};
 pub use function::Form;
+pub use goal::Goal;
 pub use harmonics::Harmonics;
 pub use instrument::{
     BodyShown, ErrorShown, ErrorState, Instrument, JointShown, ObservedShown, ReadingShown,
@@ -116,7 +118,10 @@ pub struct Diagnosis {
     /// What every row says, where the search read only some of them; errors and coefficients are then those of every row.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub every_row: Option<EveryRow>,
-    /// The declared and the new errors.
+    /// The errors that the study wants first, in their order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub wanted: Vec<String>,
+    /// The declared and the new errors: those that are wanted, then the others by what they move the observations.
     pub errors: Vec<ErrorFound>,
     /// Combinations that these data determine of errors that they do not determine one by one.
     pub estimable: Vec<Estimable>,
@@ -161,6 +166,9 @@ pub struct Diagnosis {
     /// Residuals in other units: of directions and orientations beside points.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub beside: Vec<Beside>,
+    /// The specification that the study states; absent where it states none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub goal: Option<Goal>,
     /// Models from the instrument as delivered to the one with effects, each judged on held-out rows; absent where nothing was held out.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ladder: Option<Ladder>,
@@ -303,6 +311,7 @@ pub(crate) fn diagnose(
         observations: used::used(observations, fit),
         every_row: None,
         instrument: instrument::instrument(&whole.setting, &last.chain, observations, &errors),
+        wanted: request.plan.asked.wanted.iter().map(|id| last.chain.symbol(*id).name.clone()).collect(),
         errors,
         estimable: errors::estimable(whole, last, &found.by_cause),
         at_zero: at_zero::at_zero(&whole.setting, &last.chain, observations, fit)?,
@@ -323,6 +332,7 @@ pub(crate) fn diagnose(
         after: rms.first().map_or_else(Rms::default, |own| own.after.within(most(own.unit))),
         unit: rms.first().map_or(SiUnit::RAD, |own| own.unit),
         beside: rms.iter().skip(1).map(|own| Beside::of(observations, &last.chain, own)).collect(),
+        goal: Goal::of(request.plan.asked.rms, rms, most),
         ladder,
     })
 }

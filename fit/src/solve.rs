@@ -218,7 +218,8 @@ impl Solver<'_> {
             Some(reason) => Outcome::NotConverged { iterations: self.iterations, reason },
         };
         let estimable = uncertainty.estimable(&subspace, &parameters, &values);
-        let by_itself = |id| estimable.iter().any(|one| matches!(one.combination[..], [(own, _)] if own == id));
+        let by_itself =
+            |id| estimable.iter().any(|one| matches!(one.combination[..], [(own, _)] if own == id));
         let separable = parameters.iter().map(|&id| by_itself(id)).collect();
         Ok(FitResult {
             outcome,

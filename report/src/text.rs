@@ -217,7 +217,9 @@ impl Page {
 
     /// The models, each judged on held-out rows.
     fn models(&mut self, diagnosis: &Diagnosis) {
-        let Some(ladder) = diagnosis.ladder.as_ref().filter(|_| diagnosis.verdict.is_usable()) else { return };
+        let Some(ladder) = diagnosis.ladder.as_ref().filter(|_| diagnosis.verdict.is_usable()) else {
+            return;
+        };
         self.heading(&format!("{:38} {:>12}   held-out data (RMS)", "Models", "errors"));
         for line in words::models(ladder) {
             let mark = if line.is_simplest { "  (simplest that none beats)" } else { "" };

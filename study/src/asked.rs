@@ -44,8 +44,7 @@ impl Study {
 
     fn goal_rms(&self, sources: &[SourcePlan]) -> Outcome<Option<f64>> {
         let (Some(rms), Some(source)) = (&self.goal.rms, sources.first()) else { return Ok(None) };
-        let quantity =
-            if source.measure.unit() == SiUnit::RAD { Quantity::Angle } else { Quantity::Length };
+        let quantity = if source.measure.unit() == SiUnit::RAD { Quantity::Angle } else { Quantity::Length };
         let goal = si_with_unit("rms", rms.get_ref(), quantity, &rms.span())?;
         if goal > 0.0 && goal.is_finite() {
             return Ok(Some(goal));

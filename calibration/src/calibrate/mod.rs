@@ -180,7 +180,8 @@ pub fn calibrate_telling(
     };
     let ladder = if is_rounding { None } else { ladder::ladder(&whole, &before, &judged)? };
     let Judged { round, held_out, rms, left_out } = judged;
-    let confirmed = Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, left_out, ladder };
+    let confirmed =
+        Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, left_out, ladder };
     let diagnosis = Diagnosis { contest, ..diagnose(&whole, &before, &round.fitted, Ok(confirmed))? };
     let drawn = Shown::of(request.observations, &round.fitted.fit, DRAWN).rows;
     let traces = trace::traces(&whole, &round, &drawn)?;

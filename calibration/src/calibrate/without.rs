@@ -76,8 +76,7 @@ impl<'a> Without<'a> {
         let largest = values.iter().copied().fold(0.0, f64::max);
         let kept: Vec<usize> = (0..p).filter(|&at| values[at] > UNSEEN * UNSEEN * largest).collect();
         let root_of = |at: usize| values[kept[at]].sqrt();
-        let back =
-            Mat::from_fn(p, kept.len(), |row, at| vectors[(row, kept[at])] / root_of(at) / scale[row]);
+        let back = Mat::from_fn(p, kept.len(), |row, at| vectors[(row, kept[at])] / root_of(at) / scale[row]);
         let scaled = Mat::from_fn(p, kept.len(), |row, at| vectors[(row, kept[at])] / root_of(at));
         let start = chain.nominal_values();
         let away: Vec<f64> =
@@ -157,8 +156,7 @@ impl<'a> Without<'a> {
         let mut step = vec![0.0; k];
         for at in 0..k {
             let along = |values: &[f64]| (0..k).map(|own| vectors[(own, at)] * values[own]).sum::<f64>();
-            let size =
-                if values[at] > NOT_LEFT { along(&score) / values[at] } else { along(&self.nominal) };
+            let size = if values[at] > NOT_LEFT { along(&score) / values[at] } else { along(&self.nominal) };
             step.iter_mut().enumerate().for_each(|(own, step)| *step += vectors[(own, at)] * size);
         }
         step

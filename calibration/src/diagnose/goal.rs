@@ -19,9 +19,15 @@ pub struct Goal {
 }
 
 impl Goal {
-    pub(super) fn of(asked: Option<f64>, rms: &[BeforeAfter], largest: impl Fn(SiUnit) -> f64) -> Option<Self> {
+    pub(super) fn of(
+        asked: Option<f64>,
+        rms: &[BeforeAfter],
+        with_effects: bool,
+        largest: impl Fn(SiUnit) -> f64,
+    ) -> Option<Self> {
         let (rms, own) = (asked?, rms.first()?);
-        let reached = own.after.within(largest(own.unit)).held_out_rms_kept;
+        let written = if with_effects { own.after } else { own.before };
+        let reached = written.within(largest(own.unit)).held_out_rms_kept;
         Some(Self { rms, unit: own.unit, reached, met: reached.is_some_and(|reached| reached <= rms) })
     }
 }

@@ -94,10 +94,8 @@ impl Ladder {
     /// The errors that the declaration fits and the simplest model does not.
     #[must_use]
     pub fn spared(&self) -> Vec<&str> {
-        let above = self
-            .rungs
-            .iter()
-            .filter(|rung| rung.name > self.simplest && rung.name <= RungName::Geometry);
+        let above =
+            self.rungs.iter().filter(|rung| rung.name > self.simplest && rung.name <= RungName::Geometry);
         above.flat_map(|rung| rung.adds.iter().map(String::as_str)).collect()
     }
 }

@@ -91,8 +91,8 @@ pub use noise::{NoiseFound, SerialFound, SeriesNoise, UncertainReading, Variance
 pub use observe::kinds::MeasuredLengths;
 pub use of_data::{of_data, rounding};
 pub use otherwise::Otherwise;
-pub(crate) use reach::largest_plausible;
 pub use precision::{Determined, NotSeparable, Precision, precision};
+pub(crate) use reach::largest_plausible;
 pub use remaining::{Looked, Remaining, Where};
 pub use rms::{Beside, Rms};
 pub use shown::Shown;
@@ -322,6 +322,7 @@ pub(crate) fn diagnose(
         separating: found.separating,
         precision,
         noise,
+        goal: Goal::of(request.plan.asked.rms, rms, !found.effects.is_empty(), most),
         effects: found.effects,
         contest: Vec::new(),
         search: found.search,
@@ -332,7 +333,6 @@ pub(crate) fn diagnose(
         after: rms.first().map_or_else(Rms::default, |own| own.after.within(most(own.unit))),
         unit: rms.first().map_or(SiUnit::RAD, |own| own.unit),
         beside: rms.iter().skip(1).map(|own| Beside::of(observations, &last.chain, own)).collect(),
-        goal: Goal::of(request.plan.asked.rms, rms, most),
         ladder,
     })
 }

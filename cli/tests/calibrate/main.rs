@@ -16,6 +16,7 @@ mod few_exact;
 mod figures;
 mod frames;
 mod instruments;
+mod ladder;
 mod levelled;
 mod many;
 mod misread;

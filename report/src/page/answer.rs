@@ -231,7 +231,9 @@ impl Compared {
 
     /// The figures from delivery on, or the first pair, large.
     fn figure(&self, diagnosis: &Diagnosis) -> Markup {
-        if let [others @ .., last] = self.stages.as_slice() && !others.is_empty() {
+        if let [others @ .., last] = self.stages.as_slice()
+            && !others.is_empty()
+        {
             return html! {
                 p.figure {
                     @for stage in others { span.b title=(stage.what) { (self.told(stage.rms)) } " → " }
@@ -339,7 +341,8 @@ fn stages(stages: &[Stage], scale: Scale, told: impl Fn(f64) -> String) -> Marku
         scale.bar(class, 4 + 23 * at, stage.rms, &format!("{} {}", told(stage.rms), stage.what))
     };
     let drawn: String = (0..).zip(stages).map(one).collect();
-    let label: Vec<String> = stages.iter().map(|stage| format!("{} {}", told(stage.rms), stage.what)).collect();
+    let label: Vec<String> =
+        stages.iter().map(|stage| format!("{} {}", told(stage.rms), stage.what)).collect();
     let svg = format!(
         "<svg viewBox=\"0 0 370 {height}\" role=\"img\" aria-label=\"{}\">{drawn}{}</svg>",
         markup(&format!("{HELD_OUT}: {}", label.join(", "))),

@@ -48,7 +48,8 @@ pub fn hides(after: &Rms) -> bool {
 fn by_stages(diagnosis: &Diagnosis, observed: &str, excluding: Option<&String>) -> Option<String> {
     let unit = diagnosis.ladder.as_ref().map(|ladder| ladder.unit)?;
     let own = stages(diagnosis, excluding.is_some());
-    let (last, others) = own.split_last().filter(|(_, others)| !others.is_empty() && unit == diagnosis.unit)?;
+    let (last, others) =
+        own.split_last().filter(|(_, others)| !others.is_empty() && unit == diagnosis.unit)?;
     let told = |stage: &Stage| format!("{} {}", short(stage.rms, unit), stage.what);
     let before: Vec<String> = others.iter().map(told).collect();
     let excluding = excluding.map_or_else(String::new, |own| format!(", {own}"));
@@ -75,7 +76,8 @@ fn of_unit(diagnosis: &Diagnosis, observed: &str, unit: SiUnit, [before, after]:
     let without = after.held_out_rows - after.held_out_rows_kept;
     let excluding = format!("excluding {without} outlier{}", if without == 1 { "" } else { "s" });
     let is_hidden = hides(&after);
-    let told = (unit == diagnosis.unit).then(|| by_stages(diagnosis, observed, is_hidden.then_some(&excluding)));
+    let told =
+        (unit == diagnosis.unit).then(|| by_stages(diagnosis, observed, is_hidden.then_some(&excluding)));
     if let Some(told) = told.flatten() {
         return told;
     }

@@ -71,7 +71,8 @@ pub fn missing_models(ladder: &Ladder) -> Option<String> {
     let mut sentences = Vec::new();
     let nothing = own(WhyNot::AddsNothing);
     if !nothing.is_empty() {
-        sentences.push(format!("No model of its own: {}. The study fits no such errors.", nothing.join(", ")));
+        sentences
+            .push(format!("No model of its own: {}. The study fits no such errors.", nothing.join(", ")));
     }
     let failed = own(WhyNot::NotConverged);
     if !failed.is_empty() {

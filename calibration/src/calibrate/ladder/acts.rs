@@ -29,9 +29,8 @@ pub(super) enum Acts {
 pub(super) fn acts(chain: &Chain, series: &[Series], symbol: SymbolId) -> Acts {
     let mut most = None;
     for own in series {
-        let points =
-            chain.observable(own.observable).kind == ObservableKind::Direction
-                && own.measure.kind().predicted == Predicted::Vector;
+        let points = chain.observable(own.observable).kind == ObservableKind::Direction
+            && own.measure.kind().predicted == Predicted::Vector;
         most = most.max(on_way(chain, own.observable, symbol, points));
     }
     most.unwrap_or(Acts::Geometry)
@@ -170,9 +169,7 @@ mod tests {
     fn of(text: &str, names: &[&str], points: bool) -> Vec<Acts> {
         let chain = Chain::from_text(text).unwrap();
         let observable = chain.find_observable("seen").unwrap();
-        let own = |name: &&str| {
-            on_way(&chain, observable, chain.find_symbol(name).unwrap(), points).unwrap()
-        };
+        let own = |name: &&str| on_way(&chain, observable, chain.find_symbol(name).unwrap(), points).unwrap();
         names.iter().map(own).collect()
     }
 

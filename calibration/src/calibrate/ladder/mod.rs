@@ -108,8 +108,7 @@ fn of_some(
     estimate: Vec<SymbolId>,
 ) -> Result<Option<Vec<f64>>, SearchError> {
     let (plan, observations) = (whole.request.plan, whole.request.observations);
-    let held: Vec<SymbolId> =
-        plan.fit.estimate.iter().copied().filter(|id| !estimate.contains(id)).collect();
+    let held: Vec<SymbolId> = plan.fit.estimate.iter().copied().filter(|id| !estimate.contains(id)).collect();
     let options = FitOptions {
         start: held_at_zero(whole, &held),
         sizes: plan.fit.sizes.iter().copied().filter(|(id, _)| estimate.contains(id)).collect(),
@@ -172,12 +171,7 @@ fn put_together(
 }
 
 /// The lowest rung that the best does not beat by more than the standard error of the difference, over rows of all units in terms of their noise.
-fn simplest(
-    own: &Left<'_>,
-    rms: &[BeforeAfter],
-    squares: &[Vec<f64>],
-    of_row: &[SiUnit],
-) -> Option<usize> {
+fn simplest(own: &Left<'_>, rms: &[BeforeAfter], squares: &[Vec<f64>], of_row: &[SiUnit]) -> Option<usize> {
     let noise = |unit: SiUnit| rms.iter().find(|own| own.unit == unit).map_or(1.0, BeforeAfter::noise);
     let weight: Vec<f64> = of_row.iter().map(|&unit| noise(unit).powi(-2)).collect();
     let weighed = |squares: &[f64]| -> Vec<f64> {
@@ -212,13 +206,13 @@ impl Mean {
     fn of(own: &Left<'_>, values: &[f64], is_in: &dyn Fn(usize) -> bool) -> Option<Self> {
         let units = own.judged.units();
         let mut sums: BTreeMap<u32, (f64, f64)> = BTreeMap::new();
-        for (row, value) in values.iter().enumerate().filter(|(row, value)| is_in(*row) && value.is_finite()) {
+        for (row, value) in values.iter().enumerate().filter(|(row, value)| is_in(*row) && value.is_finite())
+        {
             let (sum, count) = sums.entry(units[row]).or_default();
             *sum += value;
             *count += 1.0;
         }
-        let (sum, count) =
-            sums.values().fold((0.0, 0.0), |(sum, count), own| (sum + own.0, count + own.1));
+        let (sum, count) = sums.values().fold((0.0, 0.0), |(sum, count), own| (sum + own.0, count + own.1));
         if count == 0.0 {
             return None;
         }

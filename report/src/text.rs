@@ -138,6 +138,9 @@ impl Page {
         if let Some(chance) = &answers.chance {
             self.say("", &format!("{}.", sentence_case(chance)));
         }
+        if let Some(goal) = &answers.goal {
+            self.say("", goal);
+        }
         // What the verdict says already is no caution beside it.
         let cautions = diagnosis.cautions.iter().map(words::caution).filter(|own| *own != answers.happened);
         for caution in cautions {

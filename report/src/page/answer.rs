@@ -41,6 +41,7 @@ pub fn first_screen(reported: &Reported<'_>, answers: &Answers) -> Markup {
             p.lead {
                 (coded(if answers.what.is_empty() { &answers.better } else { &answers.happened }))
             }
+            @if let Some(goal) = &answers.goal { p.lead { b { (goal) } } }
             @if answers.what.len() > 1 {
                 ul { @for what in &answers.what[1..] { li { (what) } } }
             }

@@ -1,7 +1,7 @@
 //! How much better the residuals become, in sentences.
 
 use super::causes::sentence_case;
-use super::ladder::{Stage, goal, stages};
+use super::ladder::{Stage, stages};
 use super::left::remaining;
 use super::numbers::{short, times};
 use calibration::diagnose::{Diagnosis, Rms, Verdict};
@@ -18,7 +18,7 @@ pub(super) fn better(diagnosis: &Diagnosis) -> String {
         let observed = own.observed.first()?;
         Some(of_unit(diagnosis, observed, own.unit, [own.before, own.after]))
     });
-    let mut all: Vec<String> = std::iter::once(first).chain(goal(diagnosis)).chain(beside).collect();
+    let mut all: Vec<String> = std::iter::once(first).chain(beside).collect();
     all.extend(diagnosis.every_row.as_ref().and_then(|every| every.validation).map(|left| {
         let [before, after] = [left.before_kept, left.after_kept].map(|rms| short(rms, diagnosis.unit));
         format!(

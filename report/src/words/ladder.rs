@@ -8,7 +8,7 @@ use observe::SiUnit;
 pub(super) fn model(name: RungName) -> &'static str {
     match name {
         RungName::AsDelivered => "the instrument as delivered",
-        RungName::Placed => "placing base and target alone",
+        RungName::Placed => "placing the instrument alone",
         RungName::Zeros => "the simpler model of place and joint zeros",
         RungName::Geometry => "the model of all declared errors",
         RungName::Effects => "the model with effects",
@@ -47,7 +47,7 @@ pub fn models(ladder: &Ladder) -> Vec<ModelLine> {
 fn title(rung: &Rung) -> &'static str {
     match rung.name {
         RungName::AsDelivered => "as delivered",
-        RungName::Placed => "base and target placed",
+        RungName::Placed => "instrument placed",
         RungName::Zeros => "joint zeros",
         RungName::Geometry => "all declared errors",
         RungName::Effects if rung.adds.len() == 1 => "with the effect",
@@ -62,7 +62,7 @@ pub fn missing_models(ladder: &Ladder) -> Option<String> {
         let of_why = ladder.left_out.iter().filter(|own| own.why == why);
         of_why
             .filter_map(|own| match own.name {
-                RungName::Placed => Some("base and target"),
+                RungName::Placed => Some("instrument placed"),
                 RungName::Zeros => Some("joint zeros"),
                 _ => None,
             })
@@ -113,8 +113,7 @@ pub fn stages(diagnosis: &Diagnosis, without_outliers: bool) -> Vec<Stage> {
 }
 
 /// Whether the specification is met, in a sentence.
-#[must_use]
-pub fn goal(diagnosis: &Diagnosis) -> Option<String> {
+pub(super) fn goal(diagnosis: &Diagnosis) -> Option<String> {
     let Goal { rms, unit, reached, met } = diagnosis.goal?;
     let own = short(rms, unit);
     Some(match reached {

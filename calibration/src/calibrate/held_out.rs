@@ -4,7 +4,7 @@
 //! Which held-out rows are gross outliers is for the searches that did not see them to say: a row is kept if what its
 //! fold's search predicts of it lies nearer than where the robust weights end. The same rows are kept before and after.
 
-use super::without::Without;
+use super::without::{Without, values_of};
 use crate::diagnose::Rms;
 use crate::diagnose::expected_rms;
 use crate::diagnose::rms::BeforeAfter;
@@ -94,7 +94,8 @@ pub(super) fn left<'a>(
     let observations = whole.request.observations;
     if let Some(second) = whole.request.second {
         let residual = |chain, values: &[f64]| Columns::at(chain, second, declared(whole), values, &[]);
-        let before = residual(&whole.request.plan.chain, &before.values)?.residual;
+        let chain = &whole.request.plan.chain;
+        let before = residual(chain, &values_of(chain, before))?.residual;
         let after = residual(&last.fitted.chain, &last.fitted.fit.values)?.residual;
         let within = vec![true; second.rows()];
         return Ok(Some(Left { before, after, layout: Layout::of(second), within, judged: second }));

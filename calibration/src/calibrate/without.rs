@@ -31,6 +31,8 @@ pub(super) struct Without<'a> {
     fit: &'a FitResult,
     layout: Layout,
     plain: Model,
+    /// Of every symbol at the fit.
+    values: Vec<f64>,
     /// Whitened and weighted residuals at the fit.
     residual: Vec<f64>,
     /// Orthonormal columns of what is shown.
@@ -48,7 +50,8 @@ impl<'a> Without<'a> {
         options: &'a FitOptions,
         fit: &'a FitResult,
     ) -> Result<Self, SearchError> {
-        let columns = Columns::at(chain, observations, &fit.parameters, &fit.values, &[])?;
+        let values = values_of(chain, fit);
+        let columns = Columns::at(chain, observations, &fit.parameters, &values, &[])?;
         let layout = Layout::of(observations);
         let root: Vec<f64> = layout.row_of_each().map(|row| fit.residuals.weight[row].sqrt()).collect();
         let white = |values: &mut [f64]| {
@@ -72,10 +75,10 @@ impl<'a> Without<'a> {
             }
         }
         let gram = matrix.transpose() * &matrix;
-        let (values, vectors) = symmetric(&gram);
-        let largest = values.iter().copied().fold(0.0, f64::max);
-        let kept: Vec<usize> = (0..p).filter(|&at| values[at] > UNSEEN * UNSEEN * largest).collect();
-        let root_of = |at: usize| values[kept[at]].sqrt();
+        let (squares, vectors) = symmetric(&gram);
+        let largest = squares.iter().copied().fold(0.0, f64::max);
+        let kept: Vec<usize> = (0..p).filter(|&at| squares[at] > UNSEEN * UNSEEN * largest).collect();
+        let root_of = |at: usize| squares[kept[at]].sqrt();
         let back = Mat::from_fn(p, kept.len(), |row, at| vectors[(row, kept[at])] / root_of(at) / scale[row]);
         let scaled = Mat::from_fn(p, kept.len(), |row, at| vectors[(row, kept[at])] / root_of(at));
         let start = chain.nominal_values();
@@ -95,6 +98,7 @@ impl<'a> Without<'a> {
             plain: Model::without_columns(chain, &observations.poses),
             shown: &matrix * scaled,
             layout,
+            values,
             residual,
             back,
             nominal,
@@ -119,7 +123,7 @@ impl<'a> Without<'a> {
     fn residuals(&self, is_out: &dyn Fn(usize) -> bool) -> Result<Vec<f64>, SearchError> {
         let stays: Vec<bool> = self.layout.row_of_each().map(|row| !is_out(row)).collect();
         let step = self.step(&stays);
-        let mut values = self.fit.values.clone();
+        let mut values = self.values.clone();
         for (at, id) in self.fit.parameters.iter().enumerate() {
             values[id.index()] += (0..step.len()).map(|own| self.back[(at, own)] * step[own]).sum::<f64>();
         }
@@ -130,7 +134,7 @@ impl<'a> Without<'a> {
         let rows: Vec<usize> = (0..self.layout.rows()).filter(|&row| !is_out(row)).collect();
         let noise = NoiseOptions { variance: false, serial: false, ..self.options.noise.by_residuals() };
         let options =
-            FitOptions { start: self.fit.values.clone(), other_starts: false, noise, ..self.options.clone() };
+            FitOptions { start: self.values.clone(), other_starts: false, noise, ..self.options.clone() };
         let anew = fit(self.chain, &self.observations.select(&rows), &options)?;
         if !anew.outcome.is_usable() {
             return Ok(found);
@@ -175,6 +179,13 @@ impl<'a> Without<'a> {
         }
         off <= SHORT * squares
     }
+}
+
+/// The values of a fit for a chain that has perhaps taken up further symbols behind those of the fit: ramps of functions to search for.
+pub(super) fn values_of(chain: &Chain, fit: &FitResult) -> Vec<f64> {
+    let mut values = fit.values.clone();
+    values.extend(chain.nominal_values().into_iter().skip(values.len()));
+    values
 }
 
 /// Eigenvalues and eigenvectors of a symmetric matrix, of which the lower half is read; none of either where it has numbers that are none.

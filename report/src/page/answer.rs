@@ -59,8 +59,8 @@ pub fn first_screen(reported: &Reported<'_>, answers: &Answers) -> Markup {
             }
             div.grid {
                 @if !diagnosis.wanted.is_empty() && diagnosis.verdict.is_usable() { (wanted(diagnosis)) }
-                @if diagnosis.effects.is_empty() && diagnosis.wanted.is_empty() && diagnosis.verdict.is_usable() {
-                    (declared(diagnosis))
+                @if diagnosis.effects.is_empty() && diagnosis.verdict.is_usable() {
+                    @if diagnosis.wanted.is_empty() { (declared(diagnosis)) }
                 } @else {
                     section.card aria-label="Where" {
                         h2 { "Where" }
@@ -304,12 +304,16 @@ impl Scale {
     }
 
     /// Where the number of a bar begins: no line runs through it.
-    fn number(self, end: f64) -> f64 {
+    fn number(self, end: f64, letters: usize) -> f64 {
         let lines = [Some(self.noise), self.goal].into_iter().flatten().map(|si| 1.0 + self.end(si));
         let mut sorted: Vec<f64> = lines.collect();
         sorted.sort_by(f64::total_cmp);
         sorted.into_iter().fold(end + 8.0, |text, line| {
-            if (text - 10.0..text + 52.0).contains(&line) { text.max(line + 8.0) } else { text }
+            if (text - 10.0..text + 6.0 * letters as f64).contains(&line) {
+                text.max(line + 8.0)
+            } else {
+                text
+            }
         })
     }
 
@@ -323,7 +327,7 @@ impl Scale {
         };
         format!(
             "<path class=\"bar {class}\" d=\"M1 {y}h{end:.1}v18h-{end:.1}z\"/>{broken}<text x=\"{:.1}\" y=\"{}\" class=\"label\">{}</text>",
-            self.number(end),
+            self.number(end, told.chars().count()),
             y + 14,
             markup(told)
         )

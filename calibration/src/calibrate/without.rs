@@ -20,7 +20,7 @@ const UNSEEN: f64 = 1e-4;
 const NOT_LEFT: f64 = 1e-6;
 
 /// A step is short where the chain itself misses what the step foretells of the rows that stay by no more than this share of their sum of
-/// squares. Taking 1e-2 or 1e-6 changes no digit printed of the examples.
+/// squares.
 const SHORT: f64 = 1e-4;
 
 /// A fit from which parts of its rows are taken out.

@@ -54,9 +54,9 @@ pub enum Caution {
         /// Their unit.
         unit: SiUnit,
     },
-    /// A simpler model predicts held-out rows as well as all declared errors do.
-    #[serde(rename = "simpler model predicts as well")]
-    SimplerPredictsAsWell {
+    /// A simpler model predicts held-out rows better than all declared errors do.
+    #[serde(rename = "simpler model predicts better")]
+    SimplerPredictsBetter {
         /// Which.
         model: RungName,
         /// RMS on held-out rows by it, SI.
@@ -343,10 +343,10 @@ pub enum Caution {
 }
 
 impl Caution {
-    /// What a ladder says of the declaration, where a simpler model predicts as well.
+    /// What a ladder says of the declaration, where a simpler model predicts better.
     pub(super) fn of_ladder(ladder: &Ladder) -> Option<Self> {
         let [simpler, declared] = ladder.simpler()?;
-        Some(Self::SimplerPredictsAsWell {
+        Some(Self::SimplerPredictsBetter {
             model: simpler.name,
             simpler: simpler.held_out_rms_kept?,
             declared: declared.held_out_rms_kept.unwrap_or(f64::INFINITY),

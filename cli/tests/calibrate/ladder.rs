@@ -87,7 +87,7 @@ fn the_simplest_model_that_none_beats_is_told_where_it_is_not_the_declared_one()
     assert_eq!(names, ["as delivered", "placed", "zeros", "geometry"], "{}", report["ladder"]);
     assert_eq!(report["ladder"]["simplest"], "placed", "{}", report["ladder"]);
     assert!(own[0].1 > 5.0 * own[1].1 && own[1].1 < own[3].1, "{own:?}");
-    let told = cautions(&report, "simpler model predicts as well");
+    let told = cautions(&report, "simpler model predicts better");
     assert_eq!(told.len(), 1, "{}", report["cautions"]);
     assert_eq!(told[0]["spared"].as_array().map(Vec::len), Some(7), "{}", told[0]);
     let text = run_in(&folder.0, &["calibrate", "study.toml"], "").stdout;
@@ -100,7 +100,7 @@ fn the_simplest_model_that_none_beats_is_told_where_it_is_not_the_declared_one()
     folder.write("rows.csv", rows(200, 42, 0.004, 0.003));
     let report = calibrated(&folder, "study.toml");
     let own = rungs(&report);
-    assert!(cautions(&report, "simpler model predicts as well").is_empty(), "{}", report["cautions"]);
+    assert!(cautions(&report, "simpler model predicts better").is_empty(), "{}", report["cautions"]);
     assert_eq!(report["ladder"]["simplest"], "geometry", "{}", report["ladder"]);
     assert!(own.windows(2).all(|two| two[1].1 < 0.9 * two[0].1), "{own:?}");
     // The figure of the declaration is the one before and after, where nothing was found.

@@ -29,8 +29,8 @@ pub fn caution(caution: &Caution) -> String {
             short(*fitted, *unit),
             times(held_out / fitted)
         ),
-        Caution::SimplerPredictsAsWell { model: simplest, simpler, declared, unit, .. } => format!(
-            "On held-out data, {} ({}) predicts as well as all declared errors ({}). These rows are too few or too alike to gain from the \
+        Caution::SimplerPredictsBetter { model: simplest, simpler, declared, unit, .. } => format!(
+            "On held-out data, {} ({}) predicts better than all declared errors ({}). These rows are too few or too alike to gain from the \
              other errors. Hold them at zero, or measure more rows.",
             model(*simplest),
             size(*simpler, *unit),

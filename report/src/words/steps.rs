@@ -214,7 +214,7 @@ fn calibrate(command: &str) -> Option<String> {
 /// The lines that hold errors at zero, where a simpler model predicts as well.
 fn hold(diagnosis: &Diagnosis) -> Option<Step> {
     let spared = diagnosis.cautions.iter().find_map(|caution| match caution {
-        Caution::SimplerPredictsAsWell { spared, .. } => Some(spared),
+        Caution::SimplerPredictsBetter { spared, .. } => Some(spared),
         _ => None,
     })?;
     let held: Vec<String> = spared.iter().map(|name| format!("{name} = 0")).collect();

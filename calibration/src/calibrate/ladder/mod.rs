@@ -6,7 +6,7 @@
 
 mod acts;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use model_core::SymbolId;
 
@@ -23,6 +23,9 @@ use fit::noise::{Layout, NoiseOptions};
 use fit::{FitOptions, FitResult, Model, fit, residuals};
 use observe::SiUnit;
 
+/// Rows or units of rows below which held-out figures separate no models.
+const FEWEST: usize = 10;
+
 /// A rung, and what it leaves of held-out rows, component by component.
 struct Judgement {
     name: RungName,
@@ -31,7 +34,7 @@ struct Judgement {
     left: Vec<f64>,
 }
 
-/// The ladder; none where nothing is held out, or where rows observe objects that nobody knows: nothing says then where an instrument as
+/// The ladder; none where nothing or hardly anything is held out, or where rows observe objects that nobody knows: nothing says then where an instrument as
 /// delivered sees them.
 pub(super) fn ladder(
     whole: &Context<'_>,
@@ -43,6 +46,9 @@ pub(super) fn ladder(
         return Ok(None);
     }
     let Some(own) = left(whole, before, &judged.round, &judged.held_out)? else { return Ok(None) };
+    if own.judged.units().iter().collect::<BTreeSet<_>>().len() < FEWEST {
+        return Ok(None);
+    }
     let chain = &whole.request.plan.chain;
     let series = &whole.request.observations.poses.series;
     let estimated = declared(whole);

@@ -6,8 +6,8 @@ use toml::Spanned;
 use super::amount::si_with_unit;
 use super::estimated::matching;
 use super::mistakes::{Gathered, Outcome, Several, mistake, unknown};
-use super::plan::SourcePlan;
 use super::written::Study;
+use fit::FitOptions;
 use observe::SiUnit;
 
 /// What is asked of the answer.
@@ -20,15 +20,19 @@ pub struct Asked {
 }
 
 impl Study {
-    /// What this one asks; `estimate` is what it estimates.
+    /// What this one asks; `unit` is that of the first residuals.
     pub(super) fn asked(
         &self,
         chain: &Chain,
-        sources: &[SourcePlan],
-        estimate: &[SymbolId],
+        unit: Option<SiUnit>,
+        fit: Option<&FitOptions>,
     ) -> Outcome<Asked> {
+        // What is missing has been told.
+        let (Some(unit), Some(FitOptions { estimate, .. })) = (unit, fit) else {
+            return Ok(Asked::default());
+        };
         let mut mistakes = Gathered::default();
-        let rms = mistakes.take(self.goal_rms(sources));
+        let rms = mistakes.take(self.goal_rms(unit));
         let mut wanted = Vec::new();
         for name in &self.report.wanted {
             let own = mistakes.take(named(chain, name, estimate)).into_iter().flatten();
@@ -42,9 +46,9 @@ impl Study {
         Ok(Asked { rms: rms.flatten(), wanted })
     }
 
-    fn goal_rms(&self, sources: &[SourcePlan]) -> Outcome<Option<f64>> {
-        let (Some(rms), Some(source)) = (&self.goal.rms, sources.first()) else { return Ok(None) };
-        let quantity = if source.measure.unit() == SiUnit::RAD { Quantity::Angle } else { Quantity::Length };
+    fn goal_rms(&self, unit: SiUnit) -> Outcome<Option<f64>> {
+        let Some(rms) = &self.goal.rms else { return Ok(None) };
+        let quantity = if unit == SiUnit::RAD { Quantity::Angle } else { Quantity::Length };
         let goal = si_with_unit("rms", rms.get_ref(), quantity, &rms.span())?;
         if goal > 0.0 && goal.is_finite() {
             return Ok(Some(goal));

@@ -202,8 +202,8 @@ impl Study {
         let places = sources.as_ref().and_then(|sources| mistakes.take(self.places(sources)));
         let sizes = sources.as_ref().and_then(|sources| mistakes.take(self.tolerances(&chain, sources)));
         let plausible = mistakes.take(self.plausible(&chain));
-        let asked = sources.as_ref().zip(fit.as_ref());
-        let asked = asked.and_then(|(own, fit)| mistakes.take(self.asked(&chain, own, &fit.estimate)));
+        let unit = sources.as_ref().and_then(|own| Some(own.first()?.measure.unit()));
+        let asked = mistakes.take(self.asked(&chain, unit, fit.as_ref()));
         mistakes.none()?;
         let (
             Some(sources),

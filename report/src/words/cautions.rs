@@ -31,7 +31,7 @@ pub fn caution(caution: &Caution) -> String {
         ),
         Caution::SimplerPredictsBetter { model: simplest, simpler, declared, unit, .. } => format!(
             "On held-out data, {} ({}) predicts better than all declared errors ({}). These rows are too few or too alike to gain from the \
-             other errors. Hold them at zero, or measure more rows.",
+             other errors. Fix them at zero, or measure more rows.",
             model(*simplest),
             size(*simpler, *unit),
             size(*declared, *unit)

@@ -102,6 +102,8 @@ fn held_at_zero(whole: &Context<'_>, held: &[SymbolId]) -> Vec<f64> {
     let plan = whole.request.plan;
     let nominal = plan.chain.nominal_values();
     let mut values = plan.fit.start.clone();
+    // Functions to search for bring symbols of their own.
+    values.extend(nominal.iter().skip(values.len()));
     held.iter().for_each(|id| values[id.index()] = nominal[id.index()]);
     values
 }

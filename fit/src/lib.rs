@@ -22,6 +22,7 @@ mod outcome;
 mod partial;
 mod prior;
 pub(crate) mod readings;
+mod reference;
 mod reflections;
 pub mod robust;
 mod sets;
@@ -60,6 +61,7 @@ pub use normal::{Rest, Step};
 pub use outcome::{Outcome, Reason, SetAside, Why};
 pub use partial::{Partial, PartialError, Rows};
 pub use readings::{correlated, pulled, pulls};
+pub use reference::{FromReference, Input, Reference};
 pub use size::BESIDE_OBJECTS;
 pub use size::{Size, SizeOrigin};
 pub use solve::{fit, fit_by};
@@ -93,6 +95,8 @@ pub struct FitOptions {
     pub anchored: bool,
     /// Whether a fit that ends far off starts from other values as well.
     pub other_starts: bool,
+    /// How uncertain the reference is, where anything is stated of it.
+    pub reference: Option<Reference>,
 }
 
 impl FitOptions {
@@ -108,6 +112,7 @@ impl FitOptions {
             sizes: Vec::new(),
             anchored: false,
             other_starts: true,
+            reference: None,
         }
     }
 
@@ -157,6 +162,8 @@ pub struct FitResult {
     pub sizes: Vec<Size>,
     /// The noise that the data state beside the noise that was found; `None` where they state none.
     pub stated: Option<Stated>,
+    /// What the reference has part in of the covariance, input by input; none where nothing is stated of it.
+    pub from_reference: Vec<FromReference>,
     /// Rows that were set aside.
     pub set_aside: Vec<SetAside>,
     /// The noise that was assumed and found, which copies share.

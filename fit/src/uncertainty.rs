@@ -9,7 +9,8 @@ use model_core::SymbolId;
 
 use super::cluster::{Clusters, Share};
 use super::coordinates::Coordinates;
-use super::estimable::Estimable;
+use super::estimable::{Estimable, variance_of};
+use super::reference::FromReference;
 use super::sets::Sets;
 use super::shared::{Order, Shared};
 use super::solver::{Course, Solver};
@@ -42,6 +43,8 @@ pub(super) struct Uncertainty {
     /// A root of what the prior adds to the covariance, p × (p − rank).
     prior: Mat<f64>,
     spread: Spread,
+    /// What the reference adds.
+    reference: Vec<FromReference>,
     /// Components with weight, less what the estimates use up.
     left: f64,
     stated: Option<Stated>,
@@ -137,6 +140,7 @@ impl Solver<'_> {
         } else {
             Spread::Even { factor: found, degrees_of_freedom: left }
         };
+        let reference = self.from_reference(course, weight, &full)?;
         let by_prior = root.transpose() * subspace.precision_root(rest);
         let k = root.ncols();
         let uncertainty = Uncertainty {
@@ -144,6 +148,7 @@ impl Solver<'_> {
             prior: &root * by_prior,
             root,
             spread,
+            reference,
             left,
             stated,
         };
@@ -285,6 +290,11 @@ impl Uncertainty {
         self.left
     }
 
+    /// What the reference adds to the covariance.
+    pub fn from_reference(self) -> Vec<FromReference> {
+        self.reference
+    }
+
     /// The stated noise beside that of the residuals.
     pub fn stated(&self) -> Option<Stated> {
         self.stated
@@ -314,7 +324,8 @@ impl Uncertainty {
             }
             Spread::Serial { product, .. } => &self.root * product * self.root.transpose(),
         };
-        of_data + &self.prior * self.prior.transpose()
+        let own = of_data + &self.prior * self.prior.transpose();
+        self.reference.iter().fold(own, |sum, own| sum + &own.covariance)
     }
 
     /// Per parameter the degrees of freedom of its variance.
@@ -374,7 +385,13 @@ impl Uncertainty {
             }
             Spread::Serial { product, degrees_of_freedom } => (form(product, &a), *degrees_of_freedom),
         };
-        (by_data + by_prior, degrees_of_freedom)
+        let of_reference: f64 =
+            self.reference.iter().map(|own| variance_of(parts, |i, j| own.covariance[(i, j)])).sum();
+        if of_reference == 0.0 || !by_data.is_finite() {
+            return (by_data + by_prior, degrees_of_freedom);
+        }
+        let each = [(by_data + by_prior, degrees_of_freedom), (of_reference, f64::INFINITY)];
+        together(each.into_iter())
     }
 }
 

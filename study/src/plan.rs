@@ -194,6 +194,7 @@ impl Study {
         let places = sources.as_ref().and_then(|sources| mistakes.take(self.places(sources)));
         let sizes = sources.as_ref().and_then(|sources| mistakes.take(self.tolerances(&chain, sources)));
         let plausible = mistakes.take(self.plausible(&chain));
+        let reference = sources.as_ref().and_then(|sources| mistakes.take(self.reference(sources)));
         mistakes.none()?;
         let (
             Some(sources),
@@ -207,7 +208,10 @@ impl Study {
             Some(places),
             Some(sizes),
             Some(plausible),
-        ) = (sources, fit, search, frozen, hold_out, next, format, sigma, places, sizes, plausible)
+            Some(reference),
+        ) = (
+            sources, fit, search, frozen, hold_out, next, format, sigma, places, sizes, plausible, reference,
+        )
         else {
             unreachable!("what is missing comes with a mistake")
         };
@@ -215,6 +219,7 @@ impl Study {
             frozen.hold(&chain, &mut fit);
         }
         fit.noise.sigma = sigma;
+        fit.reference = reference;
         fit.sizes = sizes;
         self.with_objects(&sources, &mut fit)?;
         let (id, group, order) = (self.id.clone(), self.noise.group.0.clone(), self.noise.order.clone());

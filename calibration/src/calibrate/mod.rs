@@ -147,7 +147,7 @@ pub fn calibrate_telling(
         request.observations.poses.series.iter().map(|series| series.observable).collect();
     check_scale_of_ranges(&request.plan.chain, request.observations, &request.plan.fit)?;
     let loops = [Loop::default(), Loop::default()];
-    let (by_place, by_stretch) = (OnceCell::new(), OnceCell::new());
+    let (by_place, by_stretch, by_wave) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
     let whole = Context { tell, ..Context::new(request, &observables, HELD)? };
 
     let misread = request.sample.and_then(|sample| misread(request.plan, sample));
@@ -160,10 +160,11 @@ pub fn calibrate_telling(
         // What a failed fit leaves, or one of misread columns, is no residual to search.
         return unusable(&whole, first, misread);
     }
+    // What rounding leaves has a structure of its own; there is nothing to search in it.
+    let is_rounding = rounding(request.observations, &first.fit).is_some();
+    let (whole, first) = if is_rounding { (whole, first) } else { orders::offered(whole, first, &by_wave)? };
     let mut before = first.fit.clone();
     let round = Round::at(&whole, first)?;
-    // What rounding leaves has a structure of its own; there is nothing to search in it.
-    let is_rounding = rounding(request.observations, &before).is_some();
     let Chosen { whole, judged, as_good, contest } = if is_rounding {
         Chosen::of(whole.clone(), judged(&whole, &before, round)?)
     } else {

@@ -6,6 +6,7 @@ use service::apply::{self, AsMeasured, Outside, Place, REACHED, Search, Seen, So
 use service::evaluation::{Evaluator, Exactness, Quantity, readings_of};
 use service::ranges::Range;
 use service::readings::{ReadingsTable, factor_of};
+use service::sensitivity::without_errors;
 use service::source::observables;
 use study::{Conversion, Headings};
 use tables::formats::ColumnName;
@@ -72,8 +73,7 @@ pub fn solve(
         }
     }
     // What the readings would be without the errors: the correction is the difference.
-    let mut without = values.clone();
-    chain.symbols_of(SymbolKind::Error).for_each(|error| without[error.index()] = 0.0);
+    let without = without_errors(&chain, &values);
     let mut ideal = correction
         .then(|| {
             Solver::new(

@@ -55,7 +55,7 @@ pub use headings::{Headings, Need, ObservedColumn, Sequence};
 pub use hold_out::HoldOut;
 pub use load::{Loaded, Open, OpenTable};
 pub use next::{NextObjects, NextPlaces, NextPoses};
-pub use orientation::Form as OrientationForm;
+pub use orientation::{Form as OrientationForm, axes_in_turn};
 pub use plan::{Plan, Search, SourcePlan};
 pub use sample::{Change, Changed, Place, Read, Sample, SampledColumn, WrittenColumn};
 pub use timeless::Timeless;

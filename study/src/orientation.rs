@@ -145,20 +145,24 @@ fn axes(observed: &Observed, place: &Range<usize>) -> Outcome<[Axis; 3]> {
         }
         return Ok([Axis::Z, Axis::Y, Axis::X]);
     };
-    let axis = |letter: char| match letter.to_ascii_lowercase() {
+    axes_in_turn(&written.get_ref().to_ascii_lowercase()).ok_or_else(|| {
+        let message = format!("`{}` are no three axes of which none follows itself", written.get_ref());
+        mistake(written.span(), message, "write `euler = \"zyx\"` or another order of x, y and z")
+    })
+}
+
+/// Three axes by their letters, as `zyx`; none where these are no three, or one follows itself.
+#[must_use]
+pub fn axes_in_turn(letters: &str) -> Option<[Axis; 3]> {
+    let axis = |letter: char| match letter {
         'x' => Some(Axis::X),
         'y' => Some(Axis::Y),
         'z' => Some(Axis::Z),
         _ => None,
     };
-    let axes: Option<Vec<Axis>> = written.get_ref().chars().map(axis).collect();
-    match axes.as_deref() {
-        Some(&[first, second, third]) if first != second && second != third => Ok([first, second, third]),
-        _ => {
-            let message = format!("`{}` are no three axes of which none follows itself", written.get_ref());
-            Err(mistake(written.span(), message, "write `euler = \"zyx\"` or another order of x, y and z"))
-        }
-    }
+    let axes: Vec<Axis> = letters.chars().map(axis).collect::<Option<_>>()?;
+    let [first, second, third] = axes[..] else { return None };
+    (first != second && second != third).then_some([first, second, third])
 }
 
 /// The form that the keys of `[observed]` say, and its columns in order.

@@ -30,16 +30,16 @@ impl Study {
                 "leave one of them out",
             )));
         }
+        let is_fixed =
+            |id: &SymbolId| self.fit.fix.keys().any(|name| *name.get_ref() == chain.symbol(*id).name);
         let names: Vec<String> = written.get_ref().iter().map(|name| name.get_ref().clone()).collect();
         let setting = search.setting(chain, observables);
         let all = catalogue(&setting);
         let read = terms(&setting, &all, &names).into_iter().zip(written.get_ref());
         let read = mistakes.take(every(read.map(|(read, name)| {
             let term = read.map_err(|none| no_term(name.span(), name.get_ref(), none))?;
-            let fixed =
-                |id: &SymbolId| self.fit.fix.keys().any(|fixed| *fixed.get_ref() == chain.symbol(*id).name);
             match term {
-                Term::Error(error) if fixed(&error) => Err(mistake(
+                Term::Error(error) if is_fixed(&error) => Err(mistake(
                     name.span(),
                     format!("`{}` is fixed under [fit], so it is no term", chain.symbol(error).name),
                     "leave it out of one of them",
@@ -63,8 +63,6 @@ impl Study {
             ));
         }
         let is_term = |id: &SymbolId| read.iter().any(|own| own.term == Term::Error(*id));
-        let is_fixed =
-            |id: &SymbolId| self.fit.fix.keys().any(|name| *name.get_ref() == chain.symbol(*id).name);
         let held = chain.symbols_of(SymbolKind::Error).filter(|id| !is_term(id) && !is_fixed(id)).collect();
         Ok(Some(Frozen { terms: read, held }))
     }

@@ -2,14 +2,13 @@
 
 use std::path::Path;
 
-use model_core::{Chain, ObservableKind, Quantity, SymbolId, SymbolKind, names};
+use model_core::{Chain, ObservableKind, Quantity, SymbolId, SymbolKind};
 use service::errors_file;
 use service::tolerance::{Distribution, Shape, Tolerance, Written};
 use tables::units::Amount;
 
 use crate::failure::Failure;
 use crate::source;
-use model_core::names::listed;
 
 /// What a designer asks.
 #[derive(Debug, clap::Args)]
@@ -147,18 +146,7 @@ fn by_error<T: Clone>(
             (None, Some(pattern)) => (pattern, text.trim()),
             (None, None) => return Err(wrong("write errors=value, as in \"da*=2\"".to_owned())),
         };
-        let mut matched: Vec<SymbolId> = chain
-            .symbols_of(SymbolKind::Error)
-            .filter(|&error| names::matches(pattern, &chain.symbol(error).name))
-            .collect();
-        if matched.is_empty() {
-            let declared = || chain.symbols_of(SymbolKind::Error).map(|id| chain.symbol(id).name.as_str());
-            let instead = match names::nearest(pattern, declared()) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => format!("it has {}", listed(declared())),
-            };
-            return Err(wrong(format!("chain {} has no error `{pattern}`; {instead}", chain.name)));
-        }
+        let mut matched = errors_file::errors_named(chain, pattern).map_err(wrong)?;
         matched.retain(|error| sizes[error.index()] != 0.0);
         if matched.is_empty() {
             return Err(wrong(format!("the sizes leave `{pattern}` out: give it one in --sizes")));

@@ -64,7 +64,7 @@ fn exactly_the_terms_are_fitted() {
     let read: Vec<&str> = terms.iter().map(|own| own["read_as"].as_str().expect("a name")).collect();
     assert_eq!(
         read,
-        ["azimuth_index", "elevation_index", "tilt_east", "tilt_north", "gravity flexure of tube, about x"]
+        ["azimuth_index", "elevation_index", "tilt_east", "tilt_north", "gravity flexure of tube about x"]
     );
     assert_eq!(model["held_at_zero"], serde_json::json!(["nonperpendicularity", "collimation"]));
     // Each term is there, so leaving it out is worse; and what else is there would gain.

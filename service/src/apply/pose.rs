@@ -1,11 +1,12 @@
 //! Wanted poses of a body as tables have them: a point, and how the body is turned.
 
-use model_core::{Axis, Chain, ObservableId, Quantity, SymbolKind};
+use model_core::{Chain, ObservableId, Quantity};
 use nalgebra::UnitQuaternion;
-use study::OrientationForm;
+use study::{OrientationForm, axes_in_turn};
 
 use super::solve::with_axes;
 use crate::evaluation::{Evaluator, Exactness, Quantity as Computed};
+use crate::sensitivity::without_errors;
 
 /// How a wanted pose is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,20 +28,8 @@ impl std::str::FromStr for PoseForm {
             "vector" => Self::Turned(OrientationForm::Vector),
             "joints" => Self::Joints,
             other => {
-                let letters = other.strip_prefix("euler-").ok_or(usage)?;
-                let axis = |letter: char| match letter {
-                    'x' => Some(Axis::X),
-                    'y' => Some(Axis::Y),
-                    'z' => Some(Axis::Z),
-                    _ => None,
-                };
-                let axes: Option<Vec<Axis>> = letters.chars().map(axis).collect();
-                match axes.as_deref() {
-                    Some(&[first, second, third]) if first != second && second != third => {
-                        Self::Turned(OrientationForm::Euler([first, second, third]))
-                    }
-                    _ => return Err(usage),
-                }
+                let axes = other.strip_prefix("euler-").and_then(axes_in_turn).ok_or(usage)?;
+                Self::Turned(OrientationForm::Euler(axes))
             }
         })
     }
@@ -85,7 +74,6 @@ impl PoseForm {
 #[must_use]
 pub fn nominal_pose(chain: &Chain, point: ObservableId, values: &[f64]) -> Evaluator {
     let (posed, observables) = with_axes(chain, point);
-    let mut without = values.to_vec();
-    chain.symbols_of(SymbolKind::Error).for_each(|error| without[error.index()] = 0.0);
+    let without = without_errors(chain, values);
     Evaluator::new(&posed, observables, Exactness::Exact, Computed::Value, &without)
 }

@@ -234,6 +234,24 @@ pub fn largest_sizes(source: &Source, chain: &Chain, warn: Warn<'_>) -> Result<V
     Ok(sizes)
 }
 
+/// The errors of a chain that a name, or a pattern with `*`, means, in the order of the chain.
+///
+/// # Errors
+/// It means none; the message names the nearest, or all.
+pub fn errors_named(chain: &Chain, pattern: &str) -> Result<Vec<SymbolId>, String> {
+    let is_named = |id: &SymbolId| names::matches(pattern, &chain.symbol(*id).name);
+    let named: Vec<SymbolId> = chain.symbols_of(SymbolKind::Error).filter(is_named).collect();
+    if named.is_empty() {
+        let declared = || chain.symbols_of(SymbolKind::Error).map(|id| chain.symbol(id).name.as_str());
+        let instead = names::nearest(pattern, declared()).map_or_else(
+            || format!("it has {}", names::listed(declared())),
+            |near| format!("did you mean `{near}`?"),
+        );
+        return Err(format!("chain {} has no error `{pattern}`; {instead}", chain.name));
+    }
+    Ok(named)
+}
+
 /// How much a name says: more letters beside its stars say more, and a plain name says everything.
 pub fn rank(name: &str) -> usize {
     if names::is_pattern(name) { name.chars().filter(|&letter| letter != '*').count() } else { usize::MAX }

@@ -73,11 +73,9 @@ impl Constraint {
         Ok(own)
     }
 
-    /// Whether it holds at a pose; not where a side has no value.
-    pub(super) fn holds(&self, chain: &Chain, at: &impl Fn(&str) -> Option<f64>) -> bool {
-        let nominal = chain.nominal_values();
-        let value = |name: &str| at(name).or_else(|| Some(nominal[chain.find_symbol(name)?.index()]));
-        match (self.left.eval(&value), self.right.eval(&value)) {
+    /// Whether it holds at a pose, by the value of each name; not where a side has no value.
+    pub(super) fn holds(&self, value: &impl Fn(&str) -> Option<f64>) -> bool {
+        match (self.left.eval(value), self.right.eval(value)) {
             (Some(left), Some(right)) => (self.holds)(left, right),
             _ => false,
         }

@@ -11,10 +11,10 @@ mod text;
 
 use calibration::design::campaign::{self, Campaign, Wanted};
 use model_core::budget::spread;
-use model_core::names::{self, listed};
 use model_core::{Chain, ObservableId, SymbolId, SymbolKind};
 use observe::{Measure, SiUnit};
 
+use crate::errors_file;
 use crate::refusal::Refusal;
 
 pub use axes::Axis;
@@ -95,22 +95,14 @@ impl Planned {
 /// # Errors
 /// A pattern that names none.
 pub fn errors_named(chain: &Chain, patterns: &[String]) -> Result<Vec<SymbolId>, Refusal> {
-    let declared = || chain.symbols_of(SymbolKind::Error).map(|id| chain.symbol(id).name.as_str());
+    let mut named = Vec::new();
     for pattern in patterns {
-        if !declared().any(|name| names::matches(pattern, name)) {
-            let instead = names::nearest(pattern, declared()).map_or_else(
-                || format!("it has {}", listed(declared())),
-                |near| format!("did you mean `{near}`?"),
-            );
-            return Err(Refusal::Input(format!(
-                "--for: chain {} has no error `{pattern}`; {instead}",
-                chain.name
-            )));
-        }
+        let own = errors_file::errors_named(chain, pattern);
+        named.extend(own.map_err(|why| Refusal::Input(format!("--for: {why}")))?);
     }
-    let is_named =
-        |id: &SymbolId| patterns.iter().any(|pattern| names::matches(pattern, &chain.symbol(*id).name));
-    Ok(chain.symbols_of(SymbolKind::Error).filter(is_named).collect())
+    named.sort_unstable();
+    named.dedup();
+    Ok(named)
 }
 
 /// What is measured of an observable where no study says it: a direction, a point or an orientation.
@@ -201,6 +193,7 @@ fn told(asked: &Asked<'_>, wanted: &[(SymbolId, f64)], found: Option<&Campaign>)
 
 /// Poses that can be set within the limits, each once, that meet all constraints.
 fn candidates(asked: &Asked<'_>) -> Vec<Vec<f64>> {
+    let nominal = asked.chain.nominal_values();
     let unit = vec![(0.0, 1.0); asked.axes.len()];
     let mut seen = std::collections::BTreeSet::new();
     let mut poses = Vec::new();
@@ -212,9 +205,10 @@ fn candidates(asked: &Asked<'_>) -> Vec<Vec<f64>> {
         let pose: Vec<f64> = asked.axes.iter().zip(&steps).map(|(axis, step)| axis.value(*step)).collect();
         let value = |name: &str| {
             let own = asked.axes.iter().position(|axis| asked.chain.symbol(axis.symbol).name == name);
-            own.map(|at| pose[at])
+            // What is no axis is a constant.
+            own.map(|at| pose[at]).or_else(|| Some(nominal[asked.chain.find_symbol(name)?.index()]))
         };
-        if asked.constraints.iter().all(|own| own.holds(asked.chain, &value)) {
+        if asked.constraints.iter().all(|own| own.holds(&value)) {
             poses.push(pose);
         }
         if poses.len() == CANDIDATES {
@@ -226,9 +220,5 @@ fn candidates(asked: &Asked<'_>) -> Vec<Vec<f64>> {
 
 /// The unit in which an error is told.
 fn unit_of(chain: &Chain, error: SymbolId) -> SiUnit {
-    match chain.symbol(error).quantity.unit() {
-        "rad" => SiUnit::RAD,
-        "m" => SiUnit::METRE,
-        _ => SiUnit::ONE,
-    }
+    chain.symbol(error).quantity.into()
 }

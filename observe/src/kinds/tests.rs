@@ -77,6 +77,7 @@ fn the_table_is_whole() {
         "distance",
         "sight",
         "orientation",
+        "pixel",
     ];
     assert_eq!(*NAMES, expected);
     assert_eq!((headers("azimuth").first(), headers("radius").first()), (Some(&"azimuth"), None));

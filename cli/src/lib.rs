@@ -11,6 +11,7 @@ mod date;
 mod draw;
 mod expected;
 mod failure;
+mod instruments;
 pub mod library;
 #[cfg(target_os = "linux")]
 mod limited;

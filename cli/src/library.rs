@@ -27,6 +27,7 @@ use service::{errors_file, evaluation, formulas, poses};
 pub use crate::calibrating::studied as read_study;
 pub use crate::draw::stretches;
 pub use crate::failure::Failure;
+pub use crate::instruments::{compared, instrument, instrument_toml, ranges_of, values_of, verified};
 pub use crate::source::read;
 pub use crate::streaming::{Foretold, Rows, Streaming, accumulated, validated};
 pub use crate::terminal::collecting;
@@ -37,7 +38,7 @@ pub use report::Cells;
 pub use service::apply::Counted;
 pub use service::evaluation::{Exactness, Quantity};
 pub use service::over_memory::{Columns, Computed, Held};
-pub use service::{Calibrated, Source, Studied};
+pub use service::{Calibrated, Instrument, Source, Studied};
 pub use tables::formats::memory::Column;
 
 /// An answer for reading, and the same for programs.
@@ -439,6 +440,6 @@ pub fn write(calibrated: &Calibrated, folder: &Path, all_residuals: bool) -> Res
 }
 
 /// A text without the colours of a terminal.
-fn plain(text: &Screen) -> String {
+pub(crate) fn plain(text: &Screen) -> String {
     anstream::adapter::strip_str(text.as_str()).to_string()
 }

@@ -6,7 +6,7 @@ use tables::formats::memory::{Column, Reader};
 use tables::formats::{DataError, Options, TableReader};
 
 use crate::failure::Failure;
-use crate::library::{Told, plain};
+use crate::told::{Told, plain};
 use crate::{date, source, terminal};
 use service::{Calibrated, Instrument, Source};
 

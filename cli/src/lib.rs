@@ -28,6 +28,7 @@ mod source;
 mod streaming;
 mod table_files;
 mod terminal;
+mod told;
 mod waiting;
 
 use std::process::ExitCode;

@@ -11,6 +11,7 @@ mod date;
 mod draw;
 mod expected;
 mod failure;
+mod instruments;
 pub mod library;
 #[cfg(target_os = "linux")]
 mod limited;
@@ -27,6 +28,7 @@ mod source;
 mod streaming;
 mod table_files;
 mod terminal;
+mod told;
 mod waiting;
 
 use std::process::ExitCode;

@@ -6,7 +6,6 @@
 use std::path::Path;
 
 use codegen::Form;
-use model_core::escape::Screen;
 use model_core::expr::Expr;
 use model_core::{Chain, ObservableId, SymbolKind, forms, print, syntax};
 use serde_json::{Value, json};
@@ -16,6 +15,7 @@ use tables::formats::{self, ColumnName, DataError, TableReader, declared_columns
 use crate::claims_file;
 use crate::commands::{budget, simulate};
 use crate::table_files::{self, Files};
+use crate::told::plain;
 use crate::{calibrating, report_files, terminal};
 use claims::show::{Paint, as_json, as_text};
 use service::budget::Measured;
@@ -27,9 +27,11 @@ use service::{errors_file, evaluation, formulas, poses};
 pub use crate::calibrating::studied as read_study;
 pub use crate::draw::stretches;
 pub use crate::failure::Failure;
+pub use crate::instruments::{compared, instrument, instrument_toml, ranges_of, values_of, verified};
 pub use crate::source::read;
 pub use crate::streaming::{Foretold, Rows, Streaming, accumulated, validated};
 pub use crate::terminal::collecting;
+pub use crate::told::Told;
 pub use calibration::calibrate::Stage;
 pub use codegen::Loadable;
 pub use fit::Validation;
@@ -37,17 +39,8 @@ pub use report::Cells;
 pub use service::apply::Counted;
 pub use service::evaluation::{Exactness, Quantity};
 pub use service::over_memory::{Columns, Computed, Held};
-pub use service::{Calibrated, Source, Studied};
+pub use service::{Calibrated, Instrument, Source, Studied};
 pub use tables::formats::memory::Column;
-
-/// An answer for reading, and the same for programs.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Told {
-    /// For reading.
-    pub text: String,
-    /// For programs.
-    pub json: Value,
-}
 
 /// A text read as a declaration for formulas alone: constants need no value.
 ///
@@ -436,9 +429,4 @@ pub fn write(calibrated: &Calibrated, folder: &Path, all_residuals: bool) -> Res
     let reported = calibrated.reported(Some(&name));
     let instrument = calibrated.instrument(None);
     report_files::write_all(&reported, &report::rows_written(&reported, all_residuals), instrument, folder)
-}
-
-/// A text without the colours of a terminal.
-fn plain(text: &Screen) -> String {
-    anstream::adapter::strip_str(text.as_str()).to_string()
 }

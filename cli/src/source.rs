@@ -46,14 +46,21 @@ pub fn chain(path: &Path) -> Result<Chain, Failure> {
 /// # Errors
 /// As [`read`]; another kind of file; and the mistakes of the file, each with its place.
 pub fn instrument(path: &Path) -> Result<Instrument, Failure> {
-    let source = read(path)?;
+    instrument_of(&read(path)?)
+}
+
+/// The same of a text that was read.
+///
+/// # Errors
+/// Another kind of file; and the mistakes of the file, each with its place.
+pub fn instrument_of(source: &Source) -> Result<Instrument, Failure> {
     if !source.is_instrument() {
         return Err(Failure::Input(format!(
             "`{}` is no instrument file: give the `instrument.toml` that `trueaxis calibrate` writes",
-            path.display()
+            source.path.display()
         )));
     }
-    Ok(Instrument::of(&source, &terminal::warn)?)
+    Ok(Instrument::of(source, &terminal::warn)?)
 }
 
 /// A declaration, or an instrument file in its place.

@@ -113,6 +113,12 @@ impl Calibration {
         library::errors_toml(&self.0)
     }
 
+    /// `instrument.toml`, if a usable model came out.
+    #[getter]
+    fn instrument_toml(&self) -> Option<String> {
+        library::instrument_toml(&self.0)
+    }
+
     /// The values of every error of the amended chain, and of constants that were fitted, each with its unit.
     #[getter]
     fn values(&self) -> Option<Vec<(String, f64, &'static str)>> {

@@ -9,6 +9,7 @@ mod errors;
 mod evaluating;
 mod forked;
 mod formula;
+mod instrument;
 mod interrupting;
 mod rows;
 mod streaming;
@@ -29,6 +30,8 @@ mod _native {
     use super::compiled::{Call, Loadable};
     #[pymodule_export]
     use super::formula::ClosedForm;
+    #[pymodule_export]
+    use super::instrument::{Instrument, compare};
     #[pymodule_export]
     use super::streaming::{Fitting, accumulate, stretches, validate};
 

@@ -19,6 +19,7 @@ from ._cluster import apply
 from ._compiled import Compiled
 from ._errors import Mistake, MistakeError, TrueaxisError, TrueaxisWarning
 from ._fit import Fit, fit
+from ._instrument import Instrument, compare
 from ._native import __version__
 from ._tables import Table
 
@@ -29,6 +30,7 @@ __all__ = [
     "ClosedForm",
     "Compiled",
     "Fit",
+    "Instrument",
     "Mistake",
     "MistakeError",
     "Observable",
@@ -40,5 +42,6 @@ __all__ = [
     "apply",
     "calibrate",
     "check",
+    "compare",
     "fit",
 ]

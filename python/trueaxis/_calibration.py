@@ -14,6 +14,7 @@ import numpy as np
 from . import _native
 from ._chain import Chain, require_chain
 from ._inputs import Found, path_of, text_of
+from ._instrument import Instrument
 from ._tables import Table, columns_of, is_frame
 
 if TYPE_CHECKING:
@@ -70,6 +71,12 @@ class Calibration:
     def errors_toml(self) -> str | None:
         """The estimates as a file of errors for ``chain``."""
         return self._native.errors_toml
+
+    @cached_property
+    def instrument(self) -> Instrument | None:
+        """The calibrated instrument, as ``instrument.toml`` has it, or none where no usable model came out."""
+        text = self._native.instrument_toml
+        return None if text is None else Instrument.from_text(text)
 
     @property
     def values(self) -> dict[str, float] | None:

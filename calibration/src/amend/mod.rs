@@ -76,8 +76,11 @@ pub fn amend(
     inputs: &[NewInput],
 ) -> Result<String, AmendError> {
     let declaration = Declaration::from_text(text)?;
-    // π and ramps are written, not named.
-    let named = |symbol: &Symbol| !matches!(symbol.kind, SymbolKind::Pi | SymbolKind::Ramp);
+    // π, ramps and angles that are numbers are written, not named.
+    let read = Chain::from_text(text)?;
+    let named = |symbol: &Symbol| {
+        !matches!(symbol.kind, SymbolKind::Pi | SymbolKind::Ramp) && read.find_symbol(&symbol.name).is_none()
+    };
     let no_name = |symbol: &&Symbol| named(symbol) && !validate::is_name(&symbol.name);
     if let Some(symbol) = chain.symbols.iter().find(no_name) {
         return Err(AmendError::NotAsMeant(format!("`{}` is no name", symbol.name)));

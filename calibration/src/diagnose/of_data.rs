@@ -8,7 +8,8 @@ use fit::noise::Layout;
 use fit::{FitResult, robust};
 use observe::{Grouping, Observations, Series, SiUnit};
 
-/// Residuals of this share of what was measured (of a radian for directions) are no noise: something is read wrongly.
+/// Residuals of this share of what was measured (of a radian for directions, of how far pixels scatter) are no noise: something is
+/// read wrongly.
 const OUT_OF_PLACE: f64 = 0.2;
 
 /// Where no more than this share of the rows was set aside, and the others are near, it is those rows that were read wrongly.
@@ -106,10 +107,22 @@ fn distance_m(observations: &Observations, series: &Series) -> Option<f64> {
     (usual > 0.0).then_some(usual)
 }
 
+/// How far the pixels of a series scatter about their mean: the size of what a camera shows; none for what is no image.
+fn scatter_px(observations: &Observations, series: &Series) -> Option<f64> {
+    let map = series.measure.kind().map.as_ref().filter(|_| series.measure.unit() == SiUnit::PIXEL)?;
+    let places: Option<Vec<(f64, f64)>> =
+        observations.measured[series.rows.clone()].iter().map(map.place).collect();
+    let places = places.filter(|places| !places.is_empty())?;
+    let count = places.len() as f64;
+    let [u, v] = places.iter().fold([0.0; 2], |[u, v], place| [u + place.0 / count, v + place.1 / count]);
+    let square = |place: &(f64, f64)| (place.0 - u).powi(2) + (place.1 - v).powi(2);
+    Some((places.iter().map(square).sum::<f64>() / count).sqrt())
+}
+
 fn out_of_place(observations: &Observations, series: &Series, fit: &FitResult) -> Option<Caution> {
     let rms = rms_of(series, observations, fit, |_| true);
     let measured_m = distance_m(observations, series);
-    let most = OUT_OF_PLACE * measured_m.unwrap_or(1.0);
+    let most = OUT_OF_PLACE * measured_m.or_else(|| scatter_px(observations, series)).unwrap_or(1.0);
     if rms.is_nan() || rms <= most {
         return None;
     }

@@ -76,6 +76,14 @@ fn however_it_is_written_the_same_is_added() {
     }
 }
 
+/// `Rx(-138 deg)` is a constant of its own, whose name nobody may declare.
+#[test]
+fn a_body_may_be_turned_by_a_number() {
+    let text = PLAIN.replace("motion: Rz(q);", "position: Rx(-138 deg);\n        motion: Rz(q);");
+    let amended = amended(&text, "Rx(tilt)", "Found.", &[]).expect("an amended text");
+    assert!(amended.contains("Rx(-138 deg)") && amended.contains("Rx(tilt)"), "{amended}");
+}
+
 #[test]
 fn nothing_is_added_that_was_not_meant() {
     let refused = |factor: &str, inputs: &[NewInput]| {

@@ -1,5 +1,5 @@
 //! A lesson that has a deck has everything: goals, a plan of 90 minutes, exercises in three levels with hints, solutions elsewhere, a quiz
-//! with explained answers; and numbers in its solutions are computed.
+//! with explained answers, a notebook; each exercise is solved by a command or a computed number, and numbers in its solutions are computed.
 //!
 //! `<!-- number: 3 / 50 * 648000 / pi = 12.4 -->` in a page of solutions says how the number came about: the test computes it, to the
 //! digits shown, and looks for it in the line below.
@@ -46,6 +46,8 @@ fn a_lesson_with_a_deck_has_everything() {
         let solutions = read(&format!("docs/src/course/solutions/{name}.md"));
         assert_eq!(numbered(part(&solutions, "## Exercises")), numbered(exercises), "{name}: solutions");
         assert_eq!(numbered(part(&solutions, "## Quiz")), 5, "{name}: answers of the quiz");
+        solved(&name, part(&solutions, "## Exercises"));
+        assert!(lesson.contains(&format!("(notebooks/{name}.ipynb)")), "{name}: the notebook");
         let plan = read(&format!("docs/src/teaching/{name}.md"));
         let rows = part(&plan, "## 90 minutes").lines().filter_map(|line| {
             let mut cells = line.strip_prefix("| ")?.split(" | ");
@@ -61,11 +63,48 @@ fn a_lesson_with_a_deck_has_everything() {
     }
 }
 
+/// Each solution has a command that the book's test runs, or a number that is computed; or a command above all of them solves several.
+fn solved(name: &str, solutions: &str) {
+    let is_solved = |text: &str| text.contains("\n```sh\n") || text.contains("<!-- number: ");
+    let mut items: Vec<String> = vec![String::new()];
+    let mut is_code = false;
+    for line in solutions.lines() {
+        is_code ^= line.starts_with("```");
+        if !is_code && numbered(line) == 1 {
+            items.push(String::new());
+        }
+        let item = items.last_mut().expect("one at least");
+        item.push_str(line);
+        item.push('\n');
+    }
+    let shared = items.iter().find(|item| item.contains("in one declaration") || item.contains("at once"));
+    let open: Vec<&String> = items[1..].iter().filter(|item| !is_solved(item)).collect();
+    assert!(open.is_empty() || shared.is_some_and(|shared| is_solved(shared)), "{name}: {open:?}");
+}
+
+/// The cells are run by the Python package's tests; here they are kept free of what a run leaves behind.
+#[test]
+fn notebooks_are_stored_without_results() {
+    for (name, _) in decks::sources() {
+        let text = read(&format!("docs/src/course/notebooks/{name}.ipynb"));
+        let notebook: serde_json::Value =
+            serde_json::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let cells = notebook["cells"].as_array().expect("cells");
+        assert!(cells.len() >= 8, "{name}: {} cells", cells.len());
+        for cell in cells.iter().filter(|cell| cell["cell_type"] == "code") {
+            assert_eq!(cell["outputs"].as_array().map(Vec::len), Some(0), "{name}: {}", cell["id"]);
+            assert!(cell["execution_count"].is_null(), "{name}: {}", cell["id"]);
+        }
+        assert!(text.contains("**Predict.**") && text.contains("**Your turn.**"), "{name}");
+    }
+}
+
 #[test]
 fn numbers_of_solutions_are_computed() {
     let mut computed = 0;
-    for (name, _) in decks::sources() {
-        let page = read(&format!("docs/src/course/solutions/{name}.md"));
+    let solutions = decks::sources().into_iter().map(|(name, _)| format!("solutions/{name}"));
+    for name in solutions.chain(["phone-lab".to_owned()]) {
+        let page = read(&format!("docs/src/course/{name}.md"));
         let lines: Vec<&str> = page.lines().collect();
         for (at, line) in lines.iter().enumerate() {
             let Some((_, rest)) = line.split_once("<!-- number: ") else { continue };

@@ -8,12 +8,15 @@ mod support;
 
 mod decks;
 mod explorables;
+#[path = "../support/grade.rs"]
+mod grade;
 mod interactive;
 mod lessons;
 mod links;
 mod page;
 mod pictures;
 mod signatures;
+mod words;
 
 use std::fs;
 use std::path::{Path, PathBuf};

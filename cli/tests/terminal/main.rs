@@ -1,5 +1,7 @@
 //! What surrounds the answers: completions, manual pages, colours, silence, the width of lines.
 
+#[path = "../support/grade.rs"]
+mod grade;
 mod plain;
 #[path = "../support/mod.rs"]
 mod support;

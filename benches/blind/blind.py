@@ -127,7 +127,12 @@ def trial(cell, seed):
     columns = [serial(cell["noise"], rows, rng) for _ in range(3)]
     sessions = cell.get("sessions")
     session = [row * (sessions or 1) // rows for row in range(rows)]
-    shifts = [(of_row, [[rng.gauss(0, 1) for _ in range(3)] for _ in range(count)])
+    # Levelled anew: each session has tilts of its own, so many times the noise of a row.
+    levelled = [{name: rng.gauss(0, cell.get("levelled", 0.0) * instrument.noise) for name in ("tilt_x", "tilt_y")}
+                for _ in range(sessions or 1)]
+    shared = 0.0 if "levelled" in cell else 1.0
+    own = lambda row: {name: value + levelled[session[row]].get(name, 0.0) for name, value in e.items()}
+    shifts = [(of_row, [[rng.gauss(0, shared) for _ in range(3)] for _ in range(count)])
               for count, of_row in ((sessions, session), (places, [row % (places or 1) for row in range(rows)])) if count]
     if sessions and not places:
         for row, q in enumerate(where):
@@ -135,7 +140,7 @@ def trial(cell, seed):
             low, high = instrument.ranges[instrument.joints[0]]
             q[instrument.joints[0]] = low + (high - low) * (session[row] + rng.random()) / sessions
     unit = [[instrument.noise * (columns[k][row] + sum(shift[of_row[row]][k] for of_row, shift in shifts)) for k in range(3)] for row in range(rows)]
-    data = [measured(instrument, e, q, n, cell.get("in_space", False)) for q, n in zip(where, unit)]
+    data = [measured(instrument, own(row), q, n, cell.get("in_space", False)) for row, (q, n) in enumerate(zip(where, unit))]
     noise = []
     if sessions and cell.get("declared", True):
         noise.append('group = ["night"]')
@@ -149,11 +154,12 @@ def trial(cell, seed):
         unit = [[instrument.noise * column[row] for column in noise_of_new] for row in range(count)]
         return poses_of_new, [measured(instrument, e, q, n, cell.get("in_space", False)) for q, n in zip(poses_of_new, unit)]
     # Sessions and targets have offsets of their own: what is new there is a question by itself.
-    report = calibrated(cell, where, data, session, noise, None if sessions or places else as_new())
+    labels = session if cell.get("labelled", True) else None
+    report = calibrated(cell, where, data, labels, noise, None if sessions or places else as_new())
     if "failed" in report:
         return report
     noise = report["noise"]
-    result = {"verdict": report["verdict"], "found": len(report["effects"]), "inside": 0, "of": 0,
+    result = {"verdict": report["verdict"], "found": len(report["effects"]), "names": [effect["names"] for effect in report["effects"]], "inside": 0, "of": 0,
               "remembers": noise["serial"] is not None or noise["undeclared_order"], "ratio": None}
     held_out = (report["after"] or {}).get("held_out_rms")
     if held_out and report.get("new_rms"):
@@ -214,6 +220,9 @@ def cells(command):
         add("rounds", instrument, 300, "independent", places=60, aimed=0.003)
     for sessions in (6, 12, 60):
         add("sessions", mount, 300, "independent", sessions=sessions)
+    for more in ({"levelled": 3.0}, {"levelled": 3.0, "labelled": False}, {}):
+        for sessions in (6, 12):
+            add("sessions that nobody declared", mount, 300, "independent", sessions=sessions, declared=False, **more)
     for instrument in (mount, directions):
         # Every target in every session.
         add("crossed", instrument, 300, "independent", sessions=6, places=50)
@@ -225,6 +234,8 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--runs", type=int, default=50)
     parser.add_argument("--only", default="")
+    parser.add_argument("--seed", type=int, default=0, help="the seed of the first run; seeds below 1000 were used in development")
+    parser.add_argument("--each", action="store_true", help="print each run that accepts an effect")
     parser.add_argument("--functions", choices=["true", "false"])
     parser.add_argument("--command", default=str(ROOT / "target/release/trueaxis"))
     arguments = parser.parse_args()
@@ -235,7 +246,10 @@ def main():
                 continue
             if arguments.functions:
                 cell["functions"] = arguments.functions == "true"
-            results = list(pool.map(lambda seed: trial(cell, seed), range(arguments.runs)))
+            results = list(pool.map(lambda seed: trial(cell, seed), range(arguments.seed, arguments.seed + arguments.runs)))
+            for seed, r in enumerate(results, arguments.seed):
+                if arguments.each and r.get("found"):
+                    print(f"<!-- {seed}: {r['verdict']}: {r['names']} -->", flush=True)
             good = [r for r in results if "failed" not in r]
             verdicts = {}
             for r in results:

@@ -42,9 +42,10 @@ use confirm::{Judged, judged};
 use fit::{FitResult, Outcome};
 use network::{Placed, StartError, check_scale_of_ranges, placed};
 use rounds::rounds;
-use study::{Loaded, Open, Plan, Study};
+use study::{Loaded, Open, Study};
 use tables::formats::DataError;
 use tables::units::BareColumn;
+use weighed::Decided;
 
 pub use crate::search::{Request, Stage};
 pub use every_row::OfEveryRow;
@@ -224,7 +225,7 @@ fn told(
 /// Where the studies live that one loop of searches makes for itself: with a memory of the noise, with functions of the library.
 #[derive(Default)]
 struct Loop {
-    remembering: OnceCell<Plan>,
+    of_contest: weighed::Own,
     studies: choice::Studies,
 }
 
@@ -237,18 +238,21 @@ fn searched<'a>(
 ) -> Result<Chosen<'a>, CalibrateError> {
     let told = weighed::weighed(whole, &first)?;
     if let Some(told) = &told
-        && let Some((round, contest)) = weighed::explained(whole, &first, told)?
+        && let Some(Decided { whole, round, contest, caution }) =
+            weighed::decided(whole, &first, told, &own.of_contest)?
     {
-        return Ok(Chosen { contest, ..Chosen::of(whole.clone(), judged(whole, before, round)?) });
+        let mut judged = judged(&whole, before, round)?;
+        judged.left_out.extend(caution);
+        return Ok(Chosen { contest, ..Chosen::of(whole, judged) });
     }
     let round = outliers::reconsidered(whole, rounds(whole, first)?)?;
     let (whole, round, left_out) = match &told {
         None => (whole.clone(), round, None),
-        Some(told) => weighed::settled(whole.clone(), &own.remembering, round, told)?,
+        Some(told) => weighed::settled(whole.clone(), &own.of_contest.remembering, round, told)?,
     };
     let contest = told.map_or_else(Vec::new, |told| told.contest);
     let Some(left_out) = left_out else {
-        let (whole, round) = memory::settled(whole, &own.remembering, round)?;
+        let (whole, round) = memory::settled(whole, &own.of_contest.remembering, round)?;
         return Ok(Chosen { contest, ..chosen(&whole, before, round, &own.studies)? });
     };
     let mut judged = judged(&whole, before, round)?;

@@ -39,6 +39,8 @@ pub(crate) struct Told {
     pub setups: usize,
     /// A column that the study does not name, whose values say which rows belong together.
     pub column: Option<String>,
+    /// The set-up of each row, where the rows show some that nobody declared.
+    pub labels: Option<Vec<u32>>,
     /// Who competed.
     pub contest: Vec<Hypothesis>,
     /// Who competes again where the contest is repeated.
@@ -56,9 +58,9 @@ impl Told {
         self.remembers || self.setups > 1 || self.column.is_some()
     }
 
-    /// Whether causes that the catalogue has a name for explain all that there is.
-    pub fn explains(&self) -> bool {
-        !self.causes.is_empty() && !self.is_open && !self.is_full && !self.hangs_together()
+    /// Whether it decides which causes there are: it needs no function that the catalogue has no name for.
+    pub fn decides(&self) -> bool {
+        !self.is_open && !self.is_full
     }
 }
 
@@ -100,7 +102,9 @@ impl Contest {
     /// whether its values explain the rows better.
     pub fn told(&self, whole: &Context<'_>) -> Option<Told> {
         let own = self.of(&self.asked.problem)?;
-        let labelled = if self.read(&own).is_nothing() { Vec::new() } else { self.labelled(whole) };
+        let read = self.read(&own);
+        let is_alone = read.is_nothing() && !read.hangs_together();
+        let labelled = if is_alone { Vec::new() } else { self.labelled(whole) };
         let price = (labelled.len() as f64).ln();
         let (mut odds, mut best, mut by) = (own.odds(), own, None);
         for (column, problem) in &labelled {
@@ -109,7 +113,14 @@ impl Contest {
             }
         }
         let contest = recorded::recorded(&best, self.policy.even);
-        Some(Told { column: by, contest, again: Some(best.contenders()), ..self.read(&best) })
+        let read = self.read(&best);
+        let of_column = labelled.iter().find(|(column, _)| Some(column) == by.as_ref());
+        let of_column = of_column.and_then(|(_, problem)| problem.rows.labels.as_ref());
+        let labels = match of_column {
+            Some(of_row) => Some(of_row.iter().map(|&label| label as u32).collect()),
+            None => (read.setups > 1).then(|| of_setups(best.cuts(), self.asked.problem.rows.count)),
+        };
+        Some(Told { column: by, labels, contest, again: Some(best.contenders()), ..read })
     }
 
     /// The problem with rows labelled by each column that the study does not name; none where they have labels.
@@ -159,6 +170,11 @@ impl Contest {
         }
         told
     }
+}
+
+/// The set-up of each row, by the first row of each but the first.
+fn of_setups(cuts: &[usize], rows: usize) -> Vec<u32> {
+    (0..rows).map(|row| cuts.partition_point(|&cut| cut <= row) as u32).collect()
 }
 
 /// A contest that is repeated on some of its rows, among those who gained something of all.

@@ -48,10 +48,13 @@ pub(super) fn asked(whole: &Context<'_>, fitted: &Fitted) -> Result<Asked, Searc
             effects.push(EffectId(number));
         }
     }
+    // What the fit found undetermined would only be seen through products of errors.
+    let known = fitted.of_errors(&columns);
+    let determined = &columns.declared * &known * known.transpose();
     let estimates = declared(whole).iter().enumerate().map(|(at, &id)| Declared {
         name: chain.symbol(id).name.clone(),
         estimate: fitted.fit.values[id.index()],
-        column: columns.declared.col_as_slice(at).to_vec(),
+        column: determined.col_as_slice(at).to_vec(),
     });
     let mut problem = Problem {
         components: residual.len() / poses.rows().max(1),

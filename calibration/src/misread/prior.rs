@@ -175,14 +175,17 @@ fn motions(chain: &Chain, way: &[Passed<'_>]) -> Vec<usize> {
         .collect()
 }
 
-/// Whether what stands at a place of a way says where a motion is zero.
+/// Whether what stands at a place of a way says where a motion is zero: it turns or shifts as the motion does, and nothing stands between
+/// them but small errors.
 fn is_index_of(way: &[Passed<'_>], at: usize, motion: usize) -> bool {
     let is_alike = |other: usize| {
         let (one, other) = (&way[at].factor, &way[other].factor);
         one.axis == other.axis && one.kind == other.kind
     };
-    let is_beside = (motion.min(at)..=motion.max(at)).all(is_alike);
-    is_beside || (way[motion].body == way[at].body && is_alike(motion))
+    let is_small = |other: usize| matches!(way[other].factor.role, Role::PositionError | Role::MotionError);
+    let between = || motion.min(at) + 1..motion.max(at);
+    let is_beside = between().all(|other| is_alike(other) || is_small(other));
+    is_alike(motion) && (is_beside || way[motion].body == way[at].body)
 }
 
 /// The joints whose zero is an error that is estimated, each with that error.

@@ -69,6 +69,13 @@ impl<'a> Round<'a> {
         problem.groups() >= FEWEST && problem.rows().nrows() >= problem.declared() + columns + FEWEST
     }
 
+    /// Whether there are rows enough to weigh causes, be they in few groups.
+    pub fn has_rows_to_weigh(&self) -> bool {
+        let problem = self.search.of_rows();
+        let rows = self.search.rows.observations.rows();
+        rows >= FEWEST && problem.rows().nrows() >= problem.declared() + FEWEST
+    }
+
     /// How many observations an effect hangs on: the rows' share of its projected columns, as an effective number.
     pub fn observations_behind(&self, effect: EffectId) -> f64 {
         // What is stated of stations is there once, be the rows a sample of all.

@@ -47,6 +47,9 @@ pub fn caution(caution: &Caution) -> String {
                          same poses again in another order."
                     .to_owned(),
             };
+            if effects.is_empty() {
+                return format!("Rows are off together: there is {why}. {next}");
+            }
             format!(
                 "{} appeared, but cannot be separated from {why}. The model was not changed. {next}",
                 effects.join(", ")

@@ -1,4 +1,4 @@
-//! The uncertainty budget of each error, behind a fold.
+//! Uncertainty budgets, behind a fold.
 
 use crate::words::numbers;
 use calibration::diagnose::{Budget, BudgetPart, Diagnosis};
@@ -11,7 +11,8 @@ pub fn budgets(diagnosis: &Diagnosis) -> Markup {
             details id="budgets" {
                 summary { "Uncertainty budgets (GUM)" }
                 p.quiet {
-                    "Type A comes from the scatter of these rows. Type B is stated in the study. The sensitivity is in SI units. The expanded                      uncertainty covers 95.45 %."
+                    "Type A comes from the scatter of these rows. Type B is stated in the study. Sensitivities are in SI units. "
+                    "The expanded uncertainty covers 95 %."
                 }
                 @for own in &diagnosis.budgets { (budget(own)) }
             }
@@ -22,14 +23,18 @@ pub fn budgets(diagnosis: &Diagnosis) -> Markup {
 fn budget(own: &Budget) -> Markup {
     let size = |value: f64| numbers::told(value, own.unit);
     html! {
-        h3 { code { (own.error) } }
-        div.scroll tabindex="0" role="region" aria-label=(format!("Uncertainty budget of {}", own.error)) {
+        h3 {
+            @if let Some([row, component]) = own.place {
+                "Corrected reading of row " (row) ", component " (component) ", whose correction is least certain"
+            } @else { code { (own.of) } }
+        }
+        div.scroll tabindex="0" role="region" aria-label=(format!("Uncertainty budget of {}", own.of)) {
             table {
                 thead {
                     tr {
                         th scope="col" { "input" }
                         th scope="col" { "type" }
-                        th.number scope="col" { "stated" }
+                        th.number scope="col" { "standard uncertainty" }
                         th.number scope="col" { "sensitivity" }
                         th.number scope="col" { "contribution" }
                         th.number scope="col" { "degrees of freedom" }
@@ -41,7 +46,7 @@ fn budget(own: &Budget) -> Markup {
                             th scope="row" { (part.input) }
                             td { (part.kind) }
                             td.number { (stated(part)) }
-                            td.number { @if let Some(sensitivity) = part.sensitivity { (format!("{sensitivity:.3}")) } }
+                            td.number { (format!("{:.3}", part.sensitivity)) }
                             td.number { (size(part.contribution)) }
                             td.number { (freedom(part.degrees_of_freedom)) }
                         }
@@ -65,8 +70,7 @@ fn budget(own: &Budget) -> Markup {
 }
 
 fn stated(part: &BudgetPart) -> String {
-    let told = part.stated.zip(part.stated_unit).map(|(value, unit)| numbers::told(value, unit));
-    told.unwrap_or_default()
+    numbers::told(part.of_input, part.input_unit)
 }
 
 fn freedom(known: Option<f64>) -> String {

@@ -8,6 +8,7 @@
 
 use std::collections::BTreeMap;
 
+use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -232,6 +233,7 @@ pub(super) fn fit_beside(
         fits += 1;
         (inputs.found, inputs.used) = (found, used);
         let start = course.point.values;
+        drop(solver);
         own = inputs.taken_from(observations);
         options.start = start;
     }
@@ -281,13 +283,12 @@ impl Solver<'_> {
         let shown = (gram - b.transpose() * &b) * faer::Scale(1.0 / noise);
         let before = Mat::from_fn(m, 1, |at, _| inputs.found[at]);
         let score = (score - b.transpose() * along) * faer::Scale(1.0 / noise) - &before;
-        if !shown.is_all_finite() {
+        if !shown.as_ref().is_all_finite() {
             return Err(FitError::ReferenceTooLarge);
         }
         let Ok(factor) = (&shown + Mat::<f64>::identity(m, m)).llt(Side::Lower) else {
             return Err(FitError::ReferenceTooLarge);
         };
-        use faer::linalg::solvers::Solve;
         let inverse = factor.solve(Mat::<f64>::identity(m, m));
         let step = &inverse * score;
         // Of each input the share that the rows do not show stays with the errors.

@@ -221,7 +221,7 @@ pub(super) fn fit_beside(
     loop {
         let mut solver = Solver::new(model.clone(), chain, &own, &options);
         solver.inputs = Some(inputs.clone());
-        let course = solver.settled()?;
+        let course = solver.brought_down()?;
         let (_, weight) = solver.norms_and_weights(&course);
         let Some(Followed { found, used, .. }) = solver.beside_inputs(&course, &weight)? else {
             return solver.result(course);

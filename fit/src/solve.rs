@@ -55,7 +55,7 @@ pub fn fit_by(
         return fit_beside(model, chain, observations, options, reference);
     }
     let mut solver = Solver::new(model, chain, observations, options);
-    let course = solver.settled()?;
+    let course = solver.brought_down()?;
     solver.result(course)
 }
 
@@ -84,7 +84,7 @@ impl<'a> Solver<'a> {
 
 impl Solver<'_> {
     /// At the bottom, with what becomes of the rest.
-    pub(super) fn settled(&mut self) -> Result<Course, FitError> {
+    pub(super) fn brought_down(&mut self) -> Result<Course, FitError> {
         let mut course = self.arrived()?;
         self.take_as_they_are(&mut course)?;
         let arrived = self.scale(&course);

@@ -22,6 +22,7 @@ mod outcome;
 mod partial;
 mod prior;
 pub(crate) mod readings;
+mod reference;
 mod reflections;
 pub mod robust;
 mod sets;
@@ -60,6 +61,7 @@ pub use normal::{Rest, Step};
 pub use outcome::{Outcome, Reason, SetAside, Why};
 pub use partial::{Partial, PartialError, Rows};
 pub use readings::{correlated, pulled, pulls};
+pub use reference::{FromReference, Input, Reference};
 pub use size::BESIDE_OBJECTS;
 pub use size::{Size, SizeOrigin};
 pub use solve::{fit, fit_by};
@@ -93,6 +95,8 @@ pub struct FitOptions {
     pub anchored: bool,
     /// Whether a fit that ends far off starts from other values as well.
     pub other_starts: bool,
+    /// How uncertain the reference is, where anything is stated of it.
+    pub reference: Option<Reference>,
 }
 
 impl FitOptions {
@@ -108,6 +112,7 @@ impl FitOptions {
             sizes: Vec::new(),
             anchored: false,
             other_starts: true,
+            reference: None,
         }
     }
 
@@ -157,6 +162,8 @@ pub struct FitResult {
     pub sizes: Vec<Size>,
     /// The noise that the data state beside the noise that was found; `None` where they state none.
     pub stated: Option<Stated>,
+    /// What the reference does to the estimates, input by input; none where nothing is stated of it.
+    pub from_reference: Vec<FromReference>,
     /// Rows that were set aside.
     pub set_aside: Vec<SetAside>,
     /// The noise that was assumed and found, which copies share.
@@ -237,6 +244,31 @@ pub enum FitError {
         /// The joint or input.
         name: String,
     },
+    /// Chunk by chunk nobody sees what rows have in common.
+    #[error(
+        "`[reference]` states what rows have in common: rows that are read chunk by chunk are fitted as independent ones. Leave out \
+         `[reference]`, or calibrate with all rows in memory"
+    )]
+    ReferenceInChunks,
+    /// Of objects and stations their own uncertainties are stated.
+    #[error(
+        "rows observe unknown objects: write `sigma` under `[objects]` and `[stations]`, and leave out `[reference]`"
+    )]
+    ReferenceOfObjects,
+    /// Each target is three unknowns.
+    #[error(
+        "{targets} targets have several rows each, and `[reference]` takes {most} at most: leave out `targets`, or name fewer by a \
+         column of labels"
+    )]
+    TooManyTargets {
+        /// Targets that several rows share.
+        targets: usize,
+        /// As many as can be.
+        most: usize,
+    },
+    /// Beyond what can be reckoned with.
+    #[error("`[reference]` states uncertainties that are too large for these rows: write smaller ones")]
+    ReferenceTooLarge,
     /// A joint or input that the observable depends on has no readings.
     #[error("no readings of `{name}`, which `{observable}` depends on")]
     NoReadings {

@@ -8,6 +8,7 @@ use model_core::Chain;
 
 use super::align::starting_values;
 use super::descent::SCALE_SETTLED;
+use super::reference::fit_beside;
 use super::solver::{Course, Solver};
 use super::sweep::{Weighting, residuals};
 use super::turns::unwound;
@@ -50,29 +51,21 @@ pub fn fit_by(
         let why = format!("{} starting values for {} symbols", options.start.len(), chain.symbols.len());
         return Err(FitError::WrongShape { why });
     }
+    if let Some(reference) = &options.reference {
+        return fit_beside(model, chain, observations, options, reference);
+    }
     let mut solver = Solver::new(model, chain, observations, options);
-    let mut course = solver.arrived()?;
-    solver.take_as_they_are(&mut course)?;
-    let arrived = solver.scale(&course);
-    solver.release(&mut course)?;
-    // Small errors are not what the data show.
-    let is_pulled_off = solver.scale(&course) > arrived + SCALE_SETTLED;
-    if options.other_starts
-        && (is_pulled_off || solver.has_long_errors(&course) || solver.doubtful(&course)?)
-    {
-        course = solver.best_of_homes(course)?;
-    }
-    // Rows that are set aside only now leave few of them for what they now show.
-    if solver.counts_in_full(&course) {
-        course = solver.of_few(course)?;
-        solver.release(&mut course)?;
-    }
-    solver.take_as_they_are(&mut course)?;
+    let course = solver.brought_down()?;
     solver.result(course)
 }
 
 impl<'a> Solver<'a> {
-    fn new(model: Model, chain: &'a Chain, observations: &'a Observations, options: &'a FitOptions) -> Self {
+    pub(super) fn new(
+        model: Model,
+        chain: &'a Chain,
+        observations: &'a Observations,
+        options: &'a FitOptions,
+    ) -> Self {
         Solver {
             chain,
             observations,
@@ -83,12 +76,35 @@ impl<'a> Solver<'a> {
             aside: Vec::new(),
             brought: Vec::new(),
             prior_sizes: Vec::new(),
+            inputs: None,
             iterations: 0,
         }
     }
 }
 
 impl Solver<'_> {
+    /// At the bottom, with what becomes of the rest.
+    pub(super) fn brought_down(&mut self) -> Result<Course, FitError> {
+        let mut course = self.arrived()?;
+        self.take_as_they_are(&mut course)?;
+        let arrived = self.scale(&course);
+        self.release(&mut course)?;
+        // Small errors are not what the data show.
+        let is_pulled_off = self.scale(&course) > arrived + SCALE_SETTLED;
+        if self.options.other_starts
+            && (is_pulled_off || self.has_long_errors(&course) || self.doubtful(&course)?)
+        {
+            course = self.best_of_homes(course)?;
+        }
+        // Rows that are set aside only now leave few of them for what they now show.
+        if self.counts_in_full(&course) {
+            course = self.of_few(course)?;
+            self.release(&mut course)?;
+        }
+        self.take_as_they_are(&mut course)?;
+        Ok(course)
+    }
+
     /// At the bottom, what the data do not determine still where it is expected.
     fn arrived(&mut self) -> Result<Course, FitError> {
         let weighting = self.options.weighting();
@@ -183,7 +199,7 @@ impl Solver<'_> {
         Ok(best)
     }
 
-    fn result(self, course: Course) -> Result<FitResult, FitError> {
+    pub(super) fn result(self, course: Course) -> Result<FitResult, FitError> {
         let rank = course.subspace.rank();
         let of_objects = course.point.sweep.eliminated.as_ref().map_or(0, |own| own.taken as usize);
         let (norms, weight) = self.norms_and_weights(&course);
@@ -228,6 +244,7 @@ impl Solver<'_> {
             parameter_degrees_of_freedom: uncertainty.of_parameters(),
             covariance: uncertainty.covariance(),
             stated: uncertainty.stated(),
+            from_reference: uncertainty.from_reference(),
             sizes: self.prior_sizes,
             set_aside: set_aside(&point.sweep.defined, &norms, &weight),
             noise,

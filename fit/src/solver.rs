@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use super::normal::Rest;
 use super::objects::Eliminated;
+use super::reference::Inputs;
 use super::size::Size;
 use super::sweep::{Sweep, Weighting, residuals, sweep};
 use super::turns::home;
@@ -37,6 +38,8 @@ pub(super) struct Solver<'a> {
     pub brought: Vec<f64>,
     /// How large a parameter may be that the data do not show.
     pub prior_sizes: Vec<Size>,
+    /// What is unknown of the reference beside the errors, where anything is stated of it.
+    pub inputs: Option<Inputs>,
     pub iterations: usize,
 }
 
@@ -265,7 +268,8 @@ impl Solver<'_> {
     pub(super) fn used(&self, course: &Course) -> f64 {
         let sweep = &course.point.sweep;
         let of_objects = sweep.eliminated.as_ref().map_or(0.0, |eliminated| eliminated.taken);
-        of_objects + course.subspace.used(&self.partial(sweep), &course.point.rest)
+        let of_reference = self.inputs.as_ref().map_or(0.0, |inputs| inputs.used);
+        of_objects + of_reference + course.subspace.used(&self.partial(sweep), &course.point.rest)
     }
 }
 

@@ -123,6 +123,9 @@ impl Streamed {
         if let Some((id, _)) = sample.reading_sigma.first() {
             return Err(FitError::UncertainReadings { name: chain.symbol(*id).name.clone() });
         }
+        if options.reference.is_some() {
+            return Err(FitError::ReferenceInChunks);
+        }
         let options = FitOptions { noise: streamed(&options.noise), ..options.clone() };
         let start = fit(chain, sample, &options)?;
         let model = Model::new(chain, &sample.poses, &options.estimate)?;

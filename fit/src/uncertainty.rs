@@ -9,7 +9,8 @@ use model_core::SymbolId;
 
 use super::cluster::{Clusters, Share};
 use super::coordinates::Coordinates;
-use super::estimable::Estimable;
+use super::estimable::{Estimable, variance_of};
+use super::reference::{Followed, FromReference};
 use super::sets::Sets;
 use super::shared::{Order, Shared};
 use super::solver::{Course, Solver};
@@ -42,6 +43,8 @@ pub(super) struct Uncertainty {
     /// A root of what the prior adds to the covariance, p × (p − rank).
     prior: Mat<f64>,
     spread: Spread,
+    /// What the inputs of the reference do beside the errors.
+    beside: Option<Followed>,
     /// Components with weight, less what the estimates use up.
     left: f64,
     stated: Option<Stated>,
@@ -144,6 +147,7 @@ impl Solver<'_> {
             prior: &root * by_prior,
             root,
             spread,
+            beside: self.beside_inputs(course, weight)?,
             left,
             stated,
         };
@@ -285,6 +289,11 @@ impl Uncertainty {
         self.left
     }
 
+    /// What each input of the reference does to the estimates.
+    pub fn from_reference(self) -> Vec<FromReference> {
+        self.beside.map_or_else(Vec::new, |beside| beside.parts)
+    }
+
     /// The stated noise beside that of the residuals.
     pub fn stated(&self) -> Option<Stated> {
         self.stated
@@ -314,7 +323,9 @@ impl Uncertainty {
             }
             Spread::Serial { product, .. } => &self.root * product * self.root.transpose(),
         };
-        of_data + &self.prior * self.prior.transpose()
+        let own = of_data + &self.prior * self.prior.transpose();
+        let Some(beside) = &self.beside else { return own };
+        beside.parts.iter().fold(own + &beside.noise, |sum, part| sum + part.covariance())
     }
 
     /// Per parameter the degrees of freedom of its variance.
@@ -374,7 +385,13 @@ impl Uncertainty {
             }
             Spread::Serial { product, degrees_of_freedom } => (form(product, &a), *degrees_of_freedom),
         };
-        (by_data + by_prior, degrees_of_freedom)
+        let own = by_data + by_prior;
+        let Some(beside) = self.beside.as_ref().filter(|_| own.is_finite()) else {
+            return (own, degrees_of_freedom);
+        };
+        let of_noise = variance_of(parts, |i, j| beside.noise[(i, j)]).max(0.0);
+        let stated: f64 = beside.parts.iter().map(|part| part.contribution(parts).powi(2)).sum();
+        together([(own + of_noise, degrees_of_freedom), (stated, f64::INFINITY)].into_iter())
     }
 }
 

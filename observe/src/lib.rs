@@ -71,6 +71,8 @@ pub struct Observations {
     /// The site of each row, which is held out as a whole and is one unit to the ±, though noise does not hang together there; empty
     /// where groups alone count.
     pub together: Vec<u32>,
+    /// The target that each row observes, whose coordinates it shares with others; empty where none is named.
+    pub targets: Vec<u32>,
     /// What groups are.
     pub grouping: Grouping,
     /// The groups that somebody declared, where places that cross them count as groups: what their rows share is taken out of the
@@ -133,6 +135,7 @@ impl Observations {
                 .collect(),
             groups: rows.iter().filter_map(|&row| self.groups.get(row).copied()).collect(),
             together: rows.iter().filter_map(|&row| self.together.get(row).copied()).collect(),
+            targets: rows.iter().filter_map(|&row| self.targets.get(row).copied()).collect(),
             grouping: self.grouping,
             crossed: rows.iter().filter_map(|&row| self.crossed.get(row).copied()).collect(),
             in_sequence: self.in_sequence,

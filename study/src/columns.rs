@@ -66,6 +66,7 @@ impl Columns {
         }
         let of_objects = source.object.iter().chain(&source.station);
         let of_folds = plan.hold_out.together.iter().chain(&plan.order);
+        let of_folds = plan.target.iter().chain(of_folds);
         let labels = plan.group.iter().chain(&plan.id).chain(of_objects).chain(of_folds).cloned().collect();
         Self { plans, readings, observed, sigma, uncertain, correlated, times, labels }
     }

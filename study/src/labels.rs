@@ -10,11 +10,12 @@ pub(super) fn says_nothing(label: &str) -> bool {
 /// Labels with their numbers, from 0 in order of first appearance.
 pub(super) type Known = BTreeMap<Vec<String>, u32>;
 
-/// Labels of groups, and of what is held out together.
+/// Labels of groups, of what is held out together, and of targets.
 #[derive(Default)]
 pub(super) struct Numbered {
     pub groups: Known,
     pub together: Known,
+    pub targets: Known,
 }
 
 /// The number of each of so many rows by its labels.

@@ -30,6 +30,7 @@ mod orientation;
 mod places;
 mod plan;
 mod ranges;
+mod reference;
 mod repeated;
 mod rows;
 mod sample;

@@ -210,6 +210,11 @@ impl Plan {
             let end = columns.labels.len() - usize::from(self.order.is_some());
             all.together.extend(number(&mut numbered.together, &rows.labels[end - own..end], count));
         }
+        if !self.target.is_empty() {
+            let end = columns.labels.len() - usize::from(self.order.is_some()) - own;
+            let labels = &rows.labels[end - self.target.len()..end];
+            all.targets.extend(number(&mut numbered.targets, labels, count));
+        }
         all.row_numbers.extend(rows.row_numbers.iter());
         all.origins.extend(
             &rows.places,

@@ -62,6 +62,8 @@ pub struct Plan {
     /// Where objects and stations are as far as the study says.
     pub places: Places,
     pub(super) group: Vec<String>,
+    /// The columns that name the targets whose coordinates rows share.
+    pub(super) target: Vec<String>,
     pub(super) order: Option<String>,
     pub(super) format: Options,
 }
@@ -194,6 +196,7 @@ impl Study {
         let places = sources.as_ref().and_then(|sources| mistakes.take(self.places(sources)));
         let sizes = sources.as_ref().and_then(|sources| mistakes.take(self.tolerances(&chain, sources)));
         let plausible = mistakes.take(self.plausible(&chain));
+        let reference = sources.as_ref().and_then(|sources| mistakes.take(self.reference(sources)));
         mistakes.none()?;
         let (
             Some(sources),
@@ -207,7 +210,10 @@ impl Study {
             Some(places),
             Some(sizes),
             Some(plausible),
-        ) = (sources, fit, search, frozen, hold_out, next, format, sigma, places, sizes, plausible)
+            Some(reference),
+        ) = (
+            sources, fit, search, frozen, hold_out, next, format, sigma, places, sizes, plausible, reference,
+        )
         else {
             unreachable!("what is missing comes with a mistake")
         };
@@ -216,6 +222,7 @@ impl Study {
         }
         fit.noise.sigma = sigma;
         fit.sizes = sizes;
+        fit.reference = reference;
         self.with_objects(&sources, &mut fit)?;
         let (id, group, order) = (self.id.clone(), self.noise.group.0.clone(), self.noise.order.clone());
         let (data_from, doubts) = (self.data_from.clone(), self.doubts(&chain, &sources));
@@ -241,6 +248,7 @@ impl Study {
             timeless,
             id,
             group,
+            target: self.target_columns(),
             order,
             format,
             chain,

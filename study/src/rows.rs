@@ -140,6 +140,9 @@ impl Rows {
                             if says_what && says_nothing(&label) {
                                 return Err(DataError::NoLabel { cell: cell() });
                             }
+                            if plan.target.contains(name) && says_nothing(&label) {
+                                return Err(DataError::NoTarget { cell: cell() });
+                            }
                             if says_with_whom && says_nothing(&label) {
                                 return Err(DataError::NoGroup { cell: cell() });
                             }

@@ -53,6 +53,8 @@ pub struct Study {
     /// Which model to fit, where it is not to be looked for.
     #[serde(default)]
     pub(super) model: ModelTable,
+    /// How uncertain the reference is.
+    pub(super) reference: Option<Spanned<ReferenceTable>>,
     /// Effects that the catalogue does not have.
     #[serde(default)]
     pub(super) effect: Vec<OwnEffect>,
@@ -343,6 +345,18 @@ impl Default for SearchTable {
 pub(super) struct ModelTable {
     /// Exactly these are fitted.
     pub terms: Option<Spanned<Vec<Spanned<String>>>>,
+}
+
+/// `[reference]`: standard uncertainties of what rows are compared with.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct ReferenceTable {
+    pub scale: Option<Spanned<Amount>>,
+    pub targets: Option<Spanned<Amount>>,
+    /// The columns that name targets; else rows with the same coordinates have one.
+    pub target: Option<Spanned<OneOrMore>>,
+    pub rotation: Option<Spanned<Amount>>,
+    pub shift: Option<Spanned<Amount>>,
 }
 
 /// `[hold_out]`.

@@ -4,6 +4,7 @@
 
 mod at_zero;
 mod basis;
+mod budget;
 mod by_cause;
 mod caution;
 pub(crate) mod detectability;
@@ -67,6 +68,7 @@ use scale_or_places::scale_or_places;
 use verdict::Evidence;
 
 pub use at_zero::{AtZero, BesideFunction};
+pub use budget::{Budget, BudgetPart};
 pub use caution::Caution;
 pub use detectability::NotShown;
 pub use effects::{Cause, EffectFound, Relation, Side};
@@ -116,6 +118,9 @@ pub struct Diagnosis {
     pub every_row: Option<EveryRow>,
     /// The declared and the new errors.
     pub errors: Vec<ErrorFound>,
+    /// What each input has part in of the uncertainties, where the study states those of the reference.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub budgets: Vec<Budget>,
     /// Combinations that these data determine of errors that they do not determine one by one.
     pub estimable: Vec<Estimable>,
     /// Errors that stand for zero of an input from which the data lie far.
@@ -295,6 +300,7 @@ pub(crate) fn diagnose(
         observations: used::used(observations, fit),
         every_row: None,
         instrument: instrument::instrument(&whole.setting, &last.chain, observations, &errors),
+        budgets: budget::budgets(&last.chain, observations, fit, &errors)?,
         errors,
         estimable: errors::estimable(whole, last, &found.by_cause),
         at_zero: at_zero::at_zero(&whole.setting, &last.chain, observations, fit)?,

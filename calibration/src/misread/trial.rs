@@ -40,7 +40,7 @@ impl<'a> Trial<'a> {
         }
         // No model of the noise.
         let noise = NoiseOptions { variance: false, serial: false, ..plan.fit.noise.by_residuals() };
-        let options = FitOptions { noise, other_starts: false, ..plan.fit.clone() };
+        let options = FitOptions { noise, other_starts: false, reference: None, ..plan.fit.clone() };
         let model = Model::new(&plan.chain, &own.poses, &plan.fit.estimate).ok()?;
         let priors = Priors::of(plan, &own);
         Some(Self { plan, sample, columns: sample.columns(), priors, options, model, own })

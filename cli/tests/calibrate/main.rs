@@ -31,6 +31,7 @@ mod pixels;
 mod placed;
 mod ranges;
 mod readings;
+mod reference;
 mod repeats;
 mod room;
 mod scatter;

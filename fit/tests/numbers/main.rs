@@ -6,6 +6,7 @@
     reason = "a test may say what it measured, and fail loudly"
 )]
 
+mod reference;
 mod robust;
 
 use fit::{FitOptions, FitResult, fit};

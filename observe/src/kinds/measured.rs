@@ -100,6 +100,43 @@ impl Measured {
         }
     }
 
+    /// The same where every length is so many times as long.
+    #[must_use]
+    pub fn stretched(&self, factor: f64) -> Self {
+        match *self {
+            Self::Point(point) => Self::Point(point * factor),
+            Self::Range { range_m } => Self::Range { range_m: range_m * factor },
+            Self::Length { length_m } => Self::Length { length_m: length_m * factor },
+            other => other,
+        }
+    }
+
+    /// The same in a frame that is turned the other way; an azimuth as if it were that of the horizon.
+    #[must_use]
+    pub fn turned(&self, turn: &UnitQuaternion<f64>) -> Self {
+        match *self {
+            Self::Direction(direction) => Self::Direction(turn * direction),
+            Self::Point(point) => Self::Point(turn * point),
+            Self::Orientation(own) => Self::Orientation(turn * own),
+            Self::Azimuth { azimuth_rad } => {
+                let turned = turn * Vector3::new(azimuth_rad.sin(), azimuth_rad.cos(), 0.0);
+                let by = (turned.x.atan2(turned.y) - azimuth_rad).rem_euclid(std::f64::consts::TAU);
+                let by = if by > std::f64::consts::PI { by - std::f64::consts::TAU } else { by };
+                Self::Azimuth { azimuth_rad: azimuth_rad + by }
+            }
+            other => other,
+        }
+    }
+
+    /// The same in a frame whose origin is moved the other way.
+    #[must_use]
+    pub fn shifted(&self, by: &Vector3<f64>) -> Self {
+        match *self {
+            Self::Point(point) => Self::Point(point + by),
+            other => other,
+        }
+    }
+
     /// The largest number in it, in rad or m, or of a unit vector.
     pub fn largest(&self) -> f64 {
         match *self {

@@ -2,6 +2,7 @@
 //! of rows and copying are missing.
 
 mod answer;
+mod budget;
 mod card;
 mod chain;
 mod contest;

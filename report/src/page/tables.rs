@@ -139,6 +139,7 @@ pub fn details(reported: &Reported<'_>) -> Markup {
             h2 { "Details" }
             (amended(reported))
             (super::frozen::frozen(diagnosis))
+            (super::budget::budgets(diagnosis))
             (super::contest::contest(diagnosis))
             details { summary { "Noise" } ul { @for line in words::noise(diagnosis) { li { (line) } } } }
             (poses(diagnosis))

@@ -195,6 +195,14 @@ pub enum DataError {
         /// Where.
         cell: Cell,
     },
+    /// A cell that names the target of its row, without anything in it.
+    #[error(
+        "{cell}: the cell is empty, and the row has no target: fill in the target's name, or leave the row out"
+    )]
+    NoTarget {
+        /// Where.
+        cell: Cell,
+    },
     /// A cell that says when its row was taken, without anything in it.
     #[error(
         "{cell}: the cell is empty, and nothing says where in the order its row belongs: fill it in, or leave the row out"

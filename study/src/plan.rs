@@ -5,6 +5,7 @@ use model_core::{Chain, Mistakes, ObservableId, SymbolId, SymbolKind};
 use toml::Spanned;
 
 use super::amount::si;
+use super::asked::Asked;
 use super::column_plan::{ColumnPlan, column_plan};
 use super::estimated::{estimable, matching};
 use super::frozen::Frozen;
@@ -48,6 +49,8 @@ pub struct Plan {
     pub hold_out: HoldOut,
     /// Where to propose to measure next.
     pub next: Option<NextPoses>,
+    /// What is asked of the answer.
+    pub asked: Asked,
     /// Where the data are to be had, for whoever has not got them.
     pub data_from: Option<String>,
     /// Bare numbers of the study that are hardly in SI.
@@ -194,6 +197,8 @@ impl Study {
         let places = sources.as_ref().and_then(|sources| mistakes.take(self.places(sources)));
         let sizes = sources.as_ref().and_then(|sources| mistakes.take(self.tolerances(&chain, sources)));
         let plausible = mistakes.take(self.plausible(&chain));
+        let unit = sources.as_ref().and_then(|own| Some(own.first()?.measure.unit()));
+        let asked = mistakes.take(self.asked(&chain, unit, fit.as_ref()));
         mistakes.none()?;
         let (
             Some(sources),
@@ -207,7 +212,8 @@ impl Study {
             Some(places),
             Some(sizes),
             Some(plausible),
-        ) = (sources, fit, search, frozen, hold_out, next, format, sigma, places, sizes, plausible)
+            Some(asked),
+        ) = (sources, fit, search, frozen, hold_out, next, format, sigma, places, sizes, plausible, asked)
         else {
             unreachable!("what is missing comes with a mistake")
         };
@@ -232,6 +238,7 @@ impl Study {
             frozen,
             hold_out,
             next,
+            asked,
             places,
             plausible,
             data_from,

@@ -16,6 +16,7 @@ mod frozen;
 mod functions;
 mod heard;
 pub(crate) mod held_out;
+mod ladder;
 mod memory;
 mod outliers;
 mod places;
@@ -24,6 +25,7 @@ mod stretches;
 mod trials;
 mod weighed;
 mod whole_objects;
+mod without;
 
 use std::cell::OnceCell;
 
@@ -198,8 +200,10 @@ fn told(
 ) -> Result<Calibration, CalibrateError> {
     let Chosen { whole, judged, as_good, contest } = chosen;
     let request = whole.request;
+    let ladder = ladder::ladder(&whole, &before, &judged)?;
     let Judged { round, held_out, rms, left_out } = judged;
-    let confirmed = Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, left_out };
+    let confirmed =
+        Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, left_out, ladder };
     let diagnosis = Diagnosis { contest, frozen, ..diagnose(&whole, &before, &round.fitted, Ok(confirmed))? };
     let drawn = Shown::of(request.observations, &round.fitted.fit, DRAWN).rows;
     let traces = trace::traces(&whole, &round, &drawn)?;

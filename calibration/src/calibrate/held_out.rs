@@ -23,17 +23,17 @@ use observe::{Observations, SiUnit};
 
 /// Unit by unit of the residuals: in sample; held out from the study's second file, or else from the nested folds; and in the outer thirds of the joints'
 /// ranges, from searches that did not see them.
-pub(crate) fn rms(
-    whole: &Context<'_>,
+pub(super) fn rms<'a>(
+    whole: &Context<'a>,
     before: &FitResult,
     last: &Round<'_>,
     held_out: &HeldOut,
-) -> Result<Vec<BeforeAfter>, SearchError> {
+) -> Result<Judgement<'a>, SearchError> {
     let observations = whole.request.observations;
     let layout = &last.fitted.layout;
     // Where nothing was added, the last fit is that of the declaration, wherever the first one ended.
     let before = if last.fitted.found.is_empty() { &last.fitted.fit } else { before };
-    let held_out = left(whole, before, last, held_out)?;
+    let left = left(whole, before, last, held_out)?;
     let weight = &last.fitted.fit.residuals.weight;
     let kept = |row: usize| weight[row] > 0.0;
     let units = observations.poses.units();
@@ -42,7 +42,7 @@ pub(crate) fn rms(
     let of_unit = |(place, &unit): (usize, &SiUnit)| {
         let in_sample =
             |fit: &FitResult| Figures::of(&fit.residuals.raw, layout, |row| of_row[row] == unit, kept);
-        let [held_before, held_after] = match &held_out {
+        let [held_before, held_after] = match &left {
             None => [Figures::default(), Figures::default()],
             Some(Left { before, after, layout, within, judged }) => {
                 let of_row = judged.poses.unit_of_row();
@@ -68,7 +68,16 @@ pub(crate) fn rms(
             after: beside(held_after.beside(in_sample(&last.fitted.fit)), 1),
         }
     };
-    Ok(units.iter().enumerate().map(of_unit).collect())
+    let rms = units.iter().enumerate().map(of_unit).collect();
+    Ok(Judgement { rms, left })
+}
+
+/// Figures, and what is behind those of held-out rows.
+pub(super) struct Judgement<'a> {
+    /// One for each unit of residuals.
+    pub rms: Vec<BeforeAfter>,
+    /// None where nothing is held out, or where whole objects are.
+    pub left: Option<Left<'a>>,
 }
 
 /// What held-out rows leave, component by component, before whitening.
@@ -85,7 +94,7 @@ pub(super) struct Left<'a> {
 }
 
 /// Of the study's second file, or else of the folds; none where nothing is held out.
-pub(super) fn left<'a>(
+fn left<'a>(
     whole: &Context<'a>,
     before: &FitResult,
     last: &Round<'_>,

@@ -200,8 +200,12 @@ fn told(
 ) -> Result<Calibration, CalibrateError> {
     let Chosen { whole, judged, as_good, contest } = chosen;
     let request = whole.request;
-    let ladder = ladder::ladder(&whole, &before, &judged)?;
-    let Judged { round, held_out, rms, left_out } = judged;
+    // What rounding leaves separates no models.
+    let ladder = match rounding(request.observations, &before) {
+        Some(_) => None,
+        None => ladder::ladder(&whole, &before, &judged)?,
+    };
+    let Judged { round, held_out, rms, left_out, .. } = judged;
     let confirmed =
         Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, left_out, ladder };
     let diagnosis = Diagnosis { contest, frozen, ..diagnose(&whole, &before, &round.fitted, Ok(confirmed))? };

@@ -11,23 +11,24 @@ use std::collections::{BTreeMap, BTreeSet};
 use model_core::SymbolId;
 
 use super::confirm::Judged;
-use super::held_out::{Left, is_refitted, left};
+use super::held_out::{Left, is_refitted};
 use super::without::Without;
 use crate::diagnose::rms::BeforeAfter;
 use crate::diagnose::{Ladder, LeftOut, Rung, RungName, WhyNot, largest_plausible};
 use crate::search::SearchError;
 use crate::search::columns::Columns;
 use crate::search::context::{Context, declared};
+use crate::search::round::Round;
 use acts::{Acts, acts};
 use fit::noise::{Layout, NoiseOptions};
-use fit::{FitOptions, FitResult, Model, fit, residuals};
+use fit::{FitOptions, FitResult, fit, residuals};
 use observe::SiUnit;
 
 /// Rows or units of rows below which held-out figures separate no models.
 const FEWEST: usize = 10;
 
 /// A rung, and what it leaves of held-out rows, component by component.
-struct Judgement {
+struct Tried {
     name: RungName,
     adds: Vec<String>,
     errors: usize,
@@ -45,7 +46,7 @@ pub(super) fn ladder(
     if !is_refitted(whole, before) {
         return Ok(None);
     }
-    let Some(own) = left(whole, before, &judged.round, &judged.held_out)? else { return Ok(None) };
+    let Some(own) = &judged.left else { return Ok(None) };
     if own.judged.units().iter().collect::<BTreeSet<_>>().len() < FEWEST {
         return Ok(None);
     }
@@ -61,11 +62,11 @@ pub(super) fn ladder(
         own.map(|(id, _)| chain.symbol(*id).name.clone()).collect()
     };
     let nominal = {
-        let plain = Model::without_columns(chain, &own.judged.poses);
+        let plain = fit::Model::without_columns(chain, &own.judged.poses);
         residuals(&plain, own.judged, &held_at_zero(whole, estimated))?
     };
     let mut rungs =
-        vec![Judgement { name: RungName::AsDelivered, adds: Vec::new(), errors: 0, left: nominal }];
+        vec![Tried { name: RungName::AsDelivered, adds: Vec::new(), errors: 0, left: nominal }];
     let mut left_out = Vec::new();
     let mut carried = Vec::new();
     for (name, role) in [(RungName::Placed, Acts::Places), (RungName::Zeros, Acts::Index)] {
@@ -78,23 +79,23 @@ pub(super) fn ladder(
         }
         carried.append(&mut adds);
         let errors = estimate.len();
-        match of_some(whole, &judged.round, &own, estimate)? {
-            Some(left) => rungs.push(Judgement { name, adds: std::mem::take(&mut carried), errors, left }),
+        match of_some(whole, &judged.round, own, estimate)? {
+            Some(left) => rungs.push(Tried { name, adds: std::mem::take(&mut carried), errors, left }),
             None => leave(WhyNot::NotConverged),
         }
     }
     carried.extend(names(Acts::Geometry));
     let errors = estimated.len();
-    rungs.push(Judgement { name: RungName::Geometry, adds: carried, errors, left: own.before.clone() });
+    rungs.push(Tried { name: RungName::Geometry, adds: carried, errors, left: own.before.clone() });
     let found = &judged.round.fitted.found;
     if found.is_empty() {
         left_out.push(LeftOut { name: RungName::Effects, why: WhyNot::AddsNothing });
     } else {
         let adds = found.iter().map(|found| whole.catalogue[found.effect].name.clone()).collect();
         let errors = errors + judged.round.fitted.errors.iter().map(Vec::len).sum::<usize>();
-        rungs.push(Judgement { name: RungName::Effects, adds, errors, left: own.after.clone() });
+        rungs.push(Tried { name: RungName::Effects, adds, errors, left: own.after.clone() });
     }
-    Ok(put_together(&own, rungs, left_out, &judged.rms))
+    Ok(put_together(own, rungs, left_out, &judged.rms))
 }
 
 /// The values of all symbols where some of what is estimated stands at its nominal value.
@@ -111,7 +112,7 @@ fn held_at_zero(whole: &Context<'_>, held: &[SymbolId]) -> Vec<f64> {
 /// What a fit of some of the errors leaves of held-out rows; none where it does not converge.
 fn of_some(
     whole: &Context<'_>,
-    round: &crate::search::round::Round<'_>,
+    round: &Round<'_>,
     own: &Left<'_>,
     estimate: Vec<SymbolId>,
 ) -> Result<Option<Vec<f64>>, SearchError> {
@@ -140,7 +141,7 @@ fn of_some(
 
 fn put_together(
     own: &Left<'_>,
-    rungs: Vec<Judgement>,
+    rungs: Vec<Tried>,
     left_out: Vec<LeftOut>,
     rms: &[BeforeAfter],
 ) -> Option<Ladder> {
@@ -149,7 +150,7 @@ fn put_together(
     let squares: Vec<Vec<f64>> = rungs.iter().map(|rung| squares(&own.layout, &rung.left)).collect();
     let of_row = own.judged.poses.unit_of_row();
     let simplest = simplest(own, rms, &squares, &of_row)?;
-    let told = rungs.into_iter().zip(&squares).map(|(Judgement { name, adds, errors, .. }, squares)| {
+    let told = rungs.into_iter().zip(&squares).map(|(Tried { name, adds, errors, .. }, squares)| {
         let mean = |is_in: &dyn Fn(usize) -> bool| Mean::of(own, squares, is_in);
         let is_main = |row: usize| of_row[row] == main;
         let sensible = |rms: f64| rms.is_finite() && rms <= most;

@@ -65,8 +65,7 @@ pub(super) fn ladder(
         let plain = fit::Model::without_columns(chain, &own.judged.poses);
         residuals(&plain, own.judged, &held_at_zero(whole, estimated))?
     };
-    let mut rungs =
-        vec![Tried { name: RungName::AsDelivered, adds: Vec::new(), errors: 0, left: nominal }];
+    let mut rungs = vec![Tried { name: RungName::AsDelivered, adds: Vec::new(), errors: 0, left: nominal }];
     let mut left_out = Vec::new();
     let mut carried = Vec::new();
     for (name, role) in [(RungName::Placed, Acts::Places), (RungName::Zeros, Acts::Index)] {

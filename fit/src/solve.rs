@@ -217,15 +217,11 @@ impl Solver<'_> {
             None => Outcome::Converged { iterations: self.iterations },
             Some(reason) => Outcome::NotConverged { iterations: self.iterations, reason },
         };
-        let estimable = uncertainty.estimable(&subspace, &parameters, &values);
-        let by_itself =
-            |id| estimable.iter().any(|one| matches!(one.combination[..], [(own, _)] if own == id));
-        let separable = parameters.iter().map(|&id| by_itself(id)).collect();
         Ok(FitResult {
             outcome,
-            estimable,
+            estimable: uncertainty.estimable(&subspace, &parameters, &values),
             shown: subspace.shown(),
-            separable,
+            separable: subspace.separable(),
             null_space: subspace.null_space(),
             rank,
             degrees_of_freedom: uncertainty.degrees_of_freedom(),

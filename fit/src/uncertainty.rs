@@ -279,12 +279,6 @@ struct Buckets {
     count: usize,
 }
 
-/// A part of a combination that moves it by less than this share of its standard uncertainty adds half a percent to that, and is not named.
-const WEIGHTLESS: f64 = 0.1;
-
-/// Factors of a combination up to so many times that of its first part are told as they are.
-const PLAIN: f64 = 100.0;
-
 impl Uncertainty {
     /// Components with weight, less what the estimates use up.
     pub fn degrees_of_freedom(&self) -> f64 {
@@ -331,10 +325,7 @@ impl Uncertainty {
 
     /// The combinations that the data determine, with their values at these values of all symbols.
     pub fn estimable(&self, subspace: &Subspace, parameters: &[SymbolId], values: &[f64]) -> Vec<Estimable> {
-        let covariance = self.covariance();
-        let alone: Vec<f64> = (0..parameters.len()).map(|at| covariance[(at, at)].sqrt()).collect();
         let of = |parts: Vec<(usize, f64)>| {
-            let parts = self.of_weight(parts, &alone);
             let (variance, degrees_of_freedom) = self.along(&parts);
             Estimable {
                 value: parts.iter().map(|&(at, factor)| factor * values[parameters[at].index()]).sum(),
@@ -344,30 +335,6 @@ impl Uncertainty {
             }
         };
         subspace.combinations().into_iter().map(of).collect()
-    }
-
-    /// A combination without the parts that could not move it by a tenth of its standard uncertainty, however large they are. Where the
-    /// first part hardly counts beside another, the largest factor is 1 instead.
-    fn of_weight(&self, parts: Vec<(usize, f64)>, alone: &[f64]) -> Vec<(usize, f64)> {
-        let whole = self.along(&parts).0.sqrt();
-        if parts.len() < 2 || !(whole.is_finite() && whole > 0.0) {
-            return parts;
-        }
-        let weight = |&(at, factor): &(usize, f64)| factor.abs() * alone[at];
-        let most = parts.iter().map(weight).fold(0.0, f64::max);
-        let counts = |part: &(usize, f64)| weight(part) >= most.min(WEIGHTLESS * whole);
-        let mut kept: Vec<(usize, f64)> = parts.into_iter().filter(counts).collect();
-        let largest = (0..kept.len()).max_by(|&a, &b| kept[a].1.abs().total_cmp(&kept[b].1.abs()));
-        let first = match largest {
-            Some(largest) if kept[largest].1.abs() > PLAIN * kept[0].1.abs() => largest,
-            _ => 0,
-        };
-        kept[..=first].rotate_right(1);
-        let unit = kept[0].1;
-        if unit != 1.0 {
-            kept.iter_mut().for_each(|(_, factor)| *factor /= unit);
-        }
-        kept
     }
 
     /// The variance of a combination of parameters, SI, and its degrees of freedom.

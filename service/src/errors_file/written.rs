@@ -231,6 +231,7 @@ mod tests {
                     standard_uncertainty: Some(1e-6),
                     moves_by_cause: None,
                     degrees_of_freedom: None,
+                    over_noise: 0.0,
                     unit: SiUnit::RAD.per(SiUnit::KELVIN),
                     separable: true,
                     shown: true,

@@ -3,7 +3,7 @@
 use model_core::{Chain, Quantity, SymbolId, SymbolKind, names};
 use toml::Spanned;
 
-use super::amount::si_with_unit;
+use super::amount::{si, si_with_unit};
 use super::estimated::matching;
 use super::mistakes::{Gathered, Outcome, Several, mistake, unknown};
 use super::written::Study;
@@ -48,13 +48,18 @@ impl Study {
 
     fn goal_rms(&self, unit: SiUnit) -> Outcome<Option<f64>> {
         let Some(rms) = &self.goal.rms else { return Ok(None) };
-        let quantity = if unit == SiUnit::RAD { Quantity::Angle } else { Quantity::Length };
-        let goal = si_with_unit("rms", rms.get_ref(), quantity, &rms.span())?;
+        let place = rms.span();
+        let with_unit = |quantity| si_with_unit("rms", rms.get_ref(), quantity, &place);
+        let (goal, example) = match unit {
+            SiUnit::RAD => (with_unit(Quantity::Angle)?, "\"5 arcsec\""),
+            SiUnit::METRE => (with_unit(Quantity::Length)?, "\"0.5 mm\""),
+            // Pixels are plain numbers.
+            _ => (si(rms.get_ref(), Quantity::Number, &place)?, "0.5"),
+        };
         if goal > 0.0 && goal.is_finite() {
             return Ok(Some(goal));
         }
-        let example = if quantity == Quantity::Angle { "5 arcsec" } else { "0.5 mm" };
-        Err(mistake(rms.span(), "a goal is larger than zero", format!("write rms = \"{example}\"")))
+        Err(mistake(place, "a goal is larger than zero", format!("write rms = {example}")))
     }
 }
 

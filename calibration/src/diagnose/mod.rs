@@ -338,7 +338,11 @@ pub(crate) fn diagnose(
         before: rms.first().map_or_else(Rms::default, |own| own.before.within(most(own.unit))),
         after: rms.first().map_or_else(Rms::default, |own| own.after.within(most(own.unit))),
         unit: rms.first().map_or(SiUnit::RAD, |own| own.unit),
-        beside: rms.iter().skip(1).map(|own| Beside::of(observations, &last.chain, own)).collect(),
+        beside: rms
+            .iter()
+            .skip(1)
+            .map(|own| Beside::of(observations, &last.chain, own, most(own.unit)))
+            .collect(),
         ladder,
     })
 }

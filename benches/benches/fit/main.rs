@@ -63,6 +63,7 @@ fn simulate(chain: &Chain, observable: &str, joints: &[(&str, f64, f64)], rows: 
         sigma: Vec::new(),
         groups: (0..).take(rows).collect(),
         together: Vec::new(),
+        targets: Vec::new(),
         grouping: Grouping::Declared,
         converted: Default::default(),
         crossed: Vec::new(),

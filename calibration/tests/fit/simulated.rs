@@ -122,6 +122,7 @@ impl Simulation {
             reading_correlation: Vec::new(),
             groups: (0..).take(rows).collect(),
             together: Vec::new(),
+            targets: Vec::new(),
             grouping: Grouping::Declared,
             converted: Default::default(),
             crossed: Vec::new(),

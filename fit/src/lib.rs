@@ -5,6 +5,7 @@
 
 mod align;
 mod beam;
+mod beside_reference;
 mod block;
 mod cluster;
 mod coordinates;

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use model_core::Chain;
 
 use super::align::starting_values;
+use super::beside_reference::fit_beside;
 use super::descent::SCALE_SETTLED;
-use super::reference::fit_beside;
 use super::solver::{Course, Solver};
 use super::sweep::{Weighting, residuals};
 use super::turns::unwound;

@@ -8,7 +8,8 @@ use super::mistakes::{Outcome, every, mistake};
 use super::plan::SourcePlan;
 use super::written::Study;
 use fit::Reference;
-use observe::Measure;
+use observe::SiUnit;
+use observe::kinds::{BaseShown, Kind};
 use tables::units::Amount;
 
 /// A standard uncertainty as large as this, as a share, in rad or in m, is no small error.
@@ -20,13 +21,21 @@ struct Key<'a> {
     written: &'a Option<Spanned<Amount>>,
     quantity: Quantity,
     /// What it is said of.
-    of: &'static [Measure],
+    of: fn(&Kind) -> bool,
     without: &'static str,
 }
 
-const LENGTHS: &[Measure] = &[Measure::Point, Measure::Range];
-const POINTS: &[Measure] = &[Measure::Point];
-const TURNED: &[Measure] = &[Measure::Point, Measure::Direction, Measure::Azimuth, Measure::Orientation];
+fn is_point(kind: &Kind) -> bool {
+    kind.base == BaseShown::Pose
+}
+
+fn is_length(kind: &Kind) -> bool {
+    kind.unit == SiUnit::METRE
+}
+
+fn turns(kind: &Kind) -> bool {
+    is_point(kind) || kind.unit == SiUnit::RAD
+}
 
 impl Study {
     /// The columns that name targets.
@@ -46,12 +55,18 @@ impl Study {
                 "write `sigma` under `[objects]` and `[stations]`, and leave out `[reference]`",
             ));
         }
-        let key = |name, written, quantity, of, without| Key { name, written, quantity, of, without };
+        let key = |name, written, quantity, of: fn(&Kind) -> bool, without| Key {
+            name,
+            written,
+            quantity,
+            of,
+            without,
+        };
         let keys = [
-            key("scale", &table.scale, Quantity::Number, LENGTHS, "no point and no range is observed"),
-            key("targets", &table.targets, Quantity::Length, POINTS, "no point is observed"),
-            key("rotation", &table.rotation, Quantity::Angle, TURNED, "nothing that rotates is observed"),
-            key("shift", &table.shift, Quantity::Length, POINTS, "no point is observed"),
+            key("scale", &table.scale, Quantity::Number, is_length, "no point and no range is observed"),
+            key("targets", &table.targets, Quantity::Length, is_point, "no point is observed"),
+            key("rotation", &table.rotation, Quantity::Angle, turns, "nothing that rotates is observed"),
+            key("shift", &table.shift, Quantity::Length, is_point, "no point is observed"),
         ];
         if keys.iter().all(|key| key.written.is_none()) {
             return Err(mistake(
@@ -80,7 +95,7 @@ impl Key<'_> {
     fn value(&self, sources: &[SourcePlan]) -> Outcome<f64> {
         let Some(amount) = self.written else { return Ok(0.0) };
         let (name, place) = (self.name, amount.span());
-        if !sources.iter().any(|source| self.of.contains(&source.measure)) {
+        if !sources.iter().any(|source| (self.of)(source.measure.kind())) {
             return Err(mistake(place, self.without, format!("leave out `{name}`")));
         }
         let value = match self.quantity {

@@ -1,5 +1,5 @@
-//! What the contest says: which causes there are, where no function is needed that the catalogue has no name for, beside what hangs
-//! together along the rows.
+//! What the contest says: that there is no cause, beside what hangs together along the rows, or which causes there are, where the
+//! catalogue's explain all that there is.
 
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -45,7 +45,7 @@ pub(super) fn weighed(whole: &Context<'_>, first: &Round<'_>) -> Result<Option<T
 }
 
 /// The round with the contest's causes in the exact chain, or with none. With them the contest is asked again: what is left by large
-/// effects to first order is no other cause. `None` where a function is open that the catalogue has no name for, or where it finds no end.
+/// effects to first order is no other cause. `None` where it does not decide, or finds no end.
 pub(super) fn decided<'a>(
     whole: &Context<'a>,
     first: &Round<'a>,

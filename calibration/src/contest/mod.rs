@@ -58,9 +58,9 @@ impl Told {
         self.remembers || self.setups > 1 || self.column.is_some()
     }
 
-    /// Whether it decides which causes there are: it needs no function that the catalogue has no name for.
+    /// Whether it decides which causes there are: it tells none, or causes that the catalogue has a name for explain all that there is.
     pub fn decides(&self) -> bool {
-        !self.is_open && !self.is_full
+        !self.is_open && !self.is_full && (self.causes.is_empty() || !self.hangs_together())
     }
 }
 

@@ -68,18 +68,18 @@ impl Study {
             key("rotation", &table.rotation, Quantity::Angle, turns, "nothing that rotates is observed"),
             key("shift", &table.shift, Quantity::Length, is_point, "no point is observed"),
         ];
-        if keys.iter().all(|key| key.written.is_none()) {
-            return Err(mistake(
-                written.span(),
-                "`[reference]` states no uncertainty",
-                "write `scale`, `targets`, `rotation` or `shift`, or leave out `[reference]`",
-            ));
-        }
         if let (Some(target), None) = (&table.target, &table.targets) {
             return Err(mistake(
                 target.span(),
                 "`target` names the column of the targets, and no uncertainty of them is stated",
                 "write `targets = \"0.05 mm\"` too, or leave out `target`",
+            ));
+        }
+        if keys.iter().all(|key| key.written.is_none()) {
+            return Err(mistake(
+                written.span(),
+                "`[reference]` states no uncertainty",
+                "write `scale`, `targets`, `rotation` or `shift`, or leave out `[reference]`",
             ));
         }
         let values = every(keys.into_iter().map(|key| key.value(sources)))?;

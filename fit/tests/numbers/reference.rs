@@ -43,9 +43,10 @@ fn a_turned_frame_moves_the_base_by_as_much_as_is_said() {
         println!("{name}: spread over ± {ratio:.3}, ± {:.2}″", said[at].sqrt() / ARCSEC);
         assert!((0.8..=1.2).contains(&ratio), "{name}: {ratio}");
     }
-    // No data know a tilt, or an index of azimuth, better than the frame.
+    // No data know a tilt, or an index of azimuth, better than the frame: its uncertainty comes on top of that of the rows.
     for at in 0..3 {
-        assert!(said[at] >= 0.98 * rotation_rad.powi(2) && said[at] > 2.0 * without[at], "{}", NAMES[at]);
+        let added = (said[at] - without[at]) / rotation_rad.powi(2);
+        assert!((added - 1.0).abs() < 0.05, "{}: {added}", NAMES[at]);
     }
     // The collimation does not follow the frame.
     assert!((said[5] / without[5] - 1.0).abs() < 0.05);

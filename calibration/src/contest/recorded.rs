@@ -22,7 +22,7 @@ pub struct Hypothesis {
     pub price: f64,
     /// Its share of the posterior among the causes that explain the same; zero where it is none of these.
     pub share: f64,
-    /// How far it, with all that are one to the data with it, is behind the likeliest of them, nats; absent where it is none of these.
+    /// How far it is behind the best of them, nats; absent where it is none of these.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub behind: Option<f64>,
     /// The cause that is told and that it competes with; absent where it competes with none.
@@ -45,25 +45,19 @@ impl Hypothesis {
     }
 }
 
-/// The family that stands for a finding: of the catalogue's effects the first of those that are one to the data and together likeliest. None
-/// where none is among those that explain it.
+/// The family that stands for a finding: of the catalogue's effects that are one to the data the first. None where none is among those
+/// that explain it.
 pub(super) fn leader(outcome: &Outcome<'_>, finding: &Finding, even: f64) -> Option<usize> {
     let offered = |family: usize| match outcome.families()[family].law {
         Law::Offered(number) => Some(number),
         _ => None,
     };
     let named = || finding.set.iter().filter_map(|&(family, score)| Some((offered(family)?, family, score)));
-    let likeliest = named().map(|(.., score)| as_one(finding, score, even)).fold(0.0, f64::max);
+    let best = named().map(|(.., score)| score).fold(f64::NEG_INFINITY, f64::max);
     named()
-        .filter(|(.., score)| as_one(finding, *score, even) >= likeliest * (-even).exp())
+        .filter(|(.., score)| *score >= best - even)
         .min_by_key(|(number, ..)| *number)
         .map(|(_, family, _)| family)
-}
-
-/// The share of all that are one to the data with a family of this score.
-fn as_one(finding: &Finding, score: f64, even: f64) -> f64 {
-    let shares = finding.set.iter().zip(&finding.shares);
-    shares.filter(|((_, own), _)| (own - score).abs() <= even).map(|(_, share)| share).sum()
 }
 
 /// All hypotheses of a contest, those that are told first, then by what they gain.
@@ -75,11 +69,9 @@ pub(super) fn recorded(outcome: &Outcome<'_>, even: f64) -> Vec<Hypothesis> {
         .filter_map(|competitor| {
             let own = outcome.explain(competitor.family)?;
             let finding = outcome.findings().iter().find(|finding| score(finding, own.family).is_some());
-            let behind = finding.and_then(|finding| {
-                let share = |score: f64| as_one(finding, score, even);
-                let likeliest = finding.set.iter().map(|(_, score)| share(*score)).fold(0.0, f64::max);
-                Some((likeliest / share(score(finding, own.family)?)).ln())
-            });
+            let best = finding.map(|finding| finding.set.iter().map(|(_, score)| *score));
+            let best = best.map(|scores| scores.fold(f64::NEG_INFINITY, f64::max));
+            let behind = finding.and_then(|finding| Some(best? - score(finding, own.family)?));
             let instead_of = finding.map(stands).filter(|leader| *leader != own.family);
             let told = leaders.contains(&own.family) || (own.told && !causes.contains(&own.family));
             Some(Hypothesis {

@@ -24,6 +24,7 @@ use Drawn::{Budget, Report};
 
 /// `examples/course/box.toml`, in short.
 const SIZES: &str = "\"*\" = \"10 arcsec\"\n";
+const ALT_AZIMUTH: &str = "examples/alt-azimuth/alt-azimuth.chain";
 const MOUNT: &str = "examples/course/mount.chain";
 const OVER_THE_SKY: &str = "azimuth=t, elevation=t/4";
 const COURSE: &str = "examples/course/study.toml";
@@ -44,7 +45,7 @@ const fn report(study: &'static str, words: &'static str) -> Drawn {
 }
 
 /// Pages, and what draws the picture of each: `docs/src/PAGE.svg`.
-const PICTURES: [(&str, Drawn); 28] = [
+const PICTURES: [(&str, Drawn); 29] = [
     ("algebra/canonical-form", budget("examples/turntable/turntable.chain", "azimuth=t", "pointing")),
     ("algebra/exact-difference", of_mount("\"*\" = \"0.000001 arcsec\"\n", "1")),
     ("algebra/first-order", of_mount(SIZES, "5")),
@@ -78,7 +79,7 @@ const PICTURES: [(&str, Drawn); 28] = [
     ),
     ("checker/README", of_mount(SIZES, "1")),
     ("checker/kinds", budget("examples/gallery/total-station.chain", "hz=t, v=t/4+0.5", "sight")),
-    ("codegen/README", budget("examples/alt-azimuth/alt-azimuth.chain", OVER_THE_SKY, "sight")),
+    ("codegen/README", budget(ALT_AZIMUTH, OVER_THE_SKY, "sight")),
     ("codegen/program", budget("examples/gallery/gimbal.chain", "psi=t, phi=t/3, theta=t/2", "sight")),
     ("commands/README", report(TURNTABLE, "Sideways residual over azimuth")),
     ("commands/apply", report(COURSE, "Over the sky, before.")),
@@ -97,6 +98,7 @@ const PICTURES: [(&str, Drawn); 28] = [
     ("commands/files", report(COURSE, "Histogram, lengthwise residual")),
     ("commands/read", report(TARGETS, "Lengthwise residual over range")),
     ("commands/verify", report(COURSE, "lengthwise residual row by row")),
+    ("commands/years", budget(ALT_AZIMUTH, OVER_THE_SKY, "sight")),
     ("diagnosis/README", report(COURSE, "Lengthwise residual over elevation")),
     ("diagnosis/own", report(TARGETS, "Rz of alidade")),
     ("language/README", budget("examples/alt-azimuth/alt-azimuth.chain", OVER_THE_SKY, "sight")),

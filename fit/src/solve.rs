@@ -244,7 +244,7 @@ impl Solver<'_> {
             parameter_degrees_of_freedom: uncertainty.of_parameters(),
             covariance: uncertainty.covariance(),
             stated: uncertainty.stated(),
-            from_reference: uncertainty.from_reference(),
+            from_reference: uncertainty.of_reference(),
             sizes: self.prior_sizes,
             set_aside: set_aside(&point.sweep.defined, &norms, &weight),
             noise,

@@ -290,7 +290,7 @@ impl Uncertainty {
     }
 
     /// What each input of the reference does to the estimates.
-    pub fn from_reference(self) -> Vec<FromReference> {
+    pub fn of_reference(self) -> Vec<FromReference> {
         self.beside.map_or_else(Vec::new, |beside| beside.parts)
     }
 

@@ -227,7 +227,8 @@ impl Sampled {
         let mut rows = self.rows.clone();
         let mut kept = vec![true; self.block.len()];
         for Changed { place, change, rows: those } in changes {
-            let own = &self.rows.numbers[place.column];
+            // One change behind another; what is exchanged comes from the file.
+            let own = &rows.numbers[place.column];
             let factor = self.rows.factors[place.column].unwrap_or(1.0);
             let read: Vec<f64> = match *change {
                 Change::Factor(other) => own.iter().map(|si| as_written(*si, factor) * other).collect(),

@@ -8,6 +8,7 @@ mod hypotheses;
 mod policy;
 mod prior;
 mod score;
+mod states;
 mod trial;
 
 use model_core::SymbolId;
@@ -17,9 +18,10 @@ use fit::noise::resolution;
 use observe::SiUnit;
 use study::{Plan, Sample};
 
+use hypotheses::Written;
 pub use hypotheses::{Line, Reading};
 pub use policy::THRESHOLDS;
-use policy::{CLEARED, MARGIN, ONE_OF, RATIO, RATIO_ROWS, SAME};
+use policy::{CLEARED, MARGIN, ONE_OF, RATIO, RATIO_ROWS, SAME, STATES_MARGIN, STATES_RATIO};
 pub use prior::{Implausible, implausible};
 use score::Score;
 use trial::{Trial, Tried};
@@ -71,7 +73,7 @@ pub fn misread(plan: &Plan, sample: &Sample) -> Option<Misread> {
     let after = readings.first()?.score.rms;
     let suspects = readings.into_iter().map(|Tried { hypothesis, score, .. }| Suspect {
         reading: hypothesis.reading,
-        lines: hypothesis.lines,
+        lines: hypothesis.lines.iter().map(Written::line).collect(),
         score: score.total - as_read.total,
     });
     Some(Misread {
@@ -90,6 +92,9 @@ fn explains(trial: &Trial<'_>, tried: &Tried, as_read: &Score, rounding: f64) ->
     let is_gross = match &hypothesis.reading {
         Reading::Shifted { .. } => ratio <= RATIO_ROWS,
         Reading::Packed { .. } => ratio <= SAME && hypothesis.digits > 0.0,
+        Reading::TwoStates { .. } => {
+            as_read.rms > rounding && ratio.min(score.rms / as_read.rms) <= STATES_RATIO
+        }
         // A robust scale hides a minority of rows.
         Reading::FromRow { .. } => as_read.rms > rounding && ratio.min(score.rms / as_read.rms) <= RATIO,
         _ => {
@@ -99,7 +104,8 @@ fn explains(trial: &Trial<'_>, tried: &Tried, as_read: &Score, rounding: f64) ->
             ratio <= RATIO || (is_cleared && (all || !any))
         }
     };
-    score.total - as_read.total >= MARGIN && is_gross
+    let margin = if matches!(hypothesis.reading, Reading::TwoStates { .. }) { STATES_MARGIN } else { MARGIN };
+    score.total - as_read.total >= margin && is_gross
 }
 
 /// The errors of a plan that are estimated.

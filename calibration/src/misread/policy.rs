@@ -19,6 +19,7 @@ pub(super) const ONE_OF: f64 = 4.0;
 pub(super) const RARE: f64 = 1e-3;
 /// Nats that a kind of mistake is rarer than a wrong unit or sign.
 pub(super) const EXCHANGED_PRICE: f64 = 0.5;
+pub(super) const ORDER_PRICE: f64 = 0.5;
 pub(super) const PACKED_PRICE: f64 = 1.0;
 pub(super) const ZENITH_PRICE: f64 = 1.0;
 pub(super) const SHIFTED_PRICE: f64 = 1.5;
@@ -28,6 +29,17 @@ pub(super) const COUNTS_DEGREES: f64 = 4.0 * 360.0;
 pub(super) const TURNED_PRICE: f64 = 1.0;
 /// And that it holds of some rows alone.
 pub(super) const FROM_ROW_PRICE: f64 = 3.0;
+/// Rows are of two kinds when that wins by so much, leaves at most this share of the residual, and parts the rows by so many times what is
+/// left; the smaller kind has at least this share of them.
+pub(super) const STATES_PRICE: f64 = 1.0;
+pub(super) const STATES_MARGIN: f64 = 10.0;
+pub(super) const STATES_RATIO: f64 = 0.6;
+pub(super) const STATES_APART: f64 = 6.0;
+pub(super) const STATES_FEWEST_SHARE: f64 = 0.1;
+/// The kinds follow no order, joint or column: they change at least at this share of the places where they would by chance.
+pub(super) const STATES_SCATTERED: f64 = 0.5;
+/// Two mistakes at once are asked where the residual is more than this share of what was measured, or an error is beyond its limit.
+pub(super) const ROUGH_SHARE: f64 = 0.01;
 /// An axis is about so far from where the declaration puts it, rad; lengths and tools, as shares of the reach.
 pub(super) const TILT_RAD: f64 = PI / 180.0;
 pub(super) const LENGTH_SHARE: f64 = 0.02;
@@ -42,6 +54,8 @@ pub(super) const MOST_RESIDUAL_SHARE: f64 = 0.03;
 pub(super) const FITTED: usize = 9;
 pub(super) const PARTS: usize = 3;
 pub(super) const SCREENED_STEPS: usize = 4;
+/// Single mistakes of which pairs are tried.
+pub(super) const PAIRED: usize = 30;
 
 const TRIALS: &str =
     "402 clean and 190 misread simulated studies of eight instruments, thresholds moved once between halves";
@@ -69,6 +83,19 @@ pub const THRESHOLDS: &[Threshold] = &[
         "nats that exchanged columns are rarer than a wrong unit",
         TRIALS,
     ),
+    row("misread.order", ORDER_PRICE, "nats that a quaternion in another order is rarer than a wrong unit", PRICED),
+    row("misread.states", STATES_PRICE, "nats that rows of two kinds are rarer than a wrong unit", PRICED),
+    row("misread.states_margin", STATES_MARGIN, "nats by which rows of two kinds must win", PRICED),
+    row("misread.states_ratio", STATES_RATIO, "share of the residual that rows of two kinds may leave", PRICED),
+    row("misread.states_apart", STATES_APART, "how far the kinds are apart, over what is left", PRICED),
+    row("misread.states_fewest", STATES_FEWEST_SHARE, "least share of the rows in the smaller kind", PRICED),
+    row(
+        "misread.states_scattered",
+        STATES_SCATTERED,
+        "changes of kind along rows, a joint or a column, over those by chance",
+        PRICED,
+    ),
+    row("misread.rough", ROUGH_SHARE, "share of what was measured that one mistake must leave for two to be asked", PRICED),
     row("misread.packed", PACKED_PRICE, "nats that packed digits are rarer than a wrong unit", TRIALS),
     row(
         "misread.zenith",

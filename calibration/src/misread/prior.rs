@@ -28,25 +28,40 @@ enum Part {
 
 /// The scale of each estimated error; errors without one may be of any size.
 pub(super) struct Priors {
-    scales: Vec<(SymbolId, f64)>,
+    scales: Vec<Scaled>,
+}
+
+struct Scaled {
+    error: SymbolId,
+    scale: f64,
+    /// Beyond it a value is no finding.
+    limit: f64,
 }
 
 impl Priors {
     pub fn of(plan: &Plan, observations: &Observations) -> Self {
         let reach_m = reach_m(&plan.chain, observations);
-        let scale = |id: SymbolId| match part(&plan.chain, observations, id) {
-            Part::Tilt => Some((id, TILT_RAD)),
-            Part::Length => Some((id, LENGTH_SHARE * reach_m)),
-            Part::Tool => Some((id, TOOL_SHARE * reach_m)),
-            Part::Free => None,
+        let scale = |error: SymbolId| {
+            let (scale, limit) = match part(&plan.chain, observations, error) {
+                Part::Tilt => (TILT_RAD, MOST_TILT_RAD),
+                Part::Length => (LENGTH_SHARE * reach_m, MOST_LENGTH_SHARE * reach_m),
+                Part::Tool => (TOOL_SHARE * reach_m, f64::INFINITY),
+                Part::Free => return None,
+            };
+            Some(Scaled { error, scale, limit })
         };
         Self { scales: estimated(plan).filter_map(scale).collect() }
     }
 
     /// What errors of this size cost, nats: a t distribution with three degrees of freedom, against its value at zero.
     pub fn penalty(&self, values: &[f64]) -> f64 {
-        let cost = |(id, scale): &(SymbolId, f64)| 2.0 * ((values[id.index()] / scale).powi(2) / 3.0).ln_1p();
+        let cost = |own: &Scaled| 2.0 * ((values[own.error.index()] / own.scale).powi(2) / 3.0).ln_1p();
         self.scales.iter().map(cost).sum()
+    }
+
+    /// Whether an error is too large to be one.
+    pub fn is_beyond(&self, values: &[f64]) -> bool {
+        self.scales.iter().any(|own| values[own.error.index()].abs() > own.limit)
     }
 }
 
@@ -112,7 +127,7 @@ pub fn implausible(
     }
     if let Some(series) = observations.poses.series.first() {
         let unit = series.measure.unit();
-        let size = if unit == SiUnit::RAD { 1.0 } else { spread_m(observations) };
+        let size = measured_size(observations);
         let rms = fit.rms;
         let of_one_unit = observations.poses.series.iter().all(|own| own.measure.unit() == unit);
         if of_one_unit && size > 0.0 && rms > MOST_RESIDUAL_SHARE * size {
@@ -120,6 +135,12 @@ pub fn implausible(
         }
     }
     found
+}
+
+/// The size of what was measured, SI: a radian of directions, the usual distance from their middle of points.
+pub(super) fn measured_size(observations: &Observations) -> f64 {
+    let unit = observations.poses.series.first().map(|series| series.measure.unit());
+    if unit == Some(SiUnit::RAD) { 1.0 } else { spread_m(observations) }
 }
 
 /// What an error is of, by the factors that it stands in.

@@ -29,6 +29,8 @@ pub(super) struct Score {
     pub penalty: f64,
     /// Where the fit came to.
     pub values: Vec<f64>,
+    /// How many numbers these data determine.
+    pub rank: usize,
 }
 
 /// The score of the data as they are read, fitted; `None` where there is no fit.
@@ -80,12 +82,17 @@ pub(super) fn score(
         scale: scale.exp(),
         rms: trimmed(&rows_of_first),
         penalty,
+        rank: fit.rank,
         values: fit.values,
     })
 }
 
 /// The logarithm of how much the residual changes with the numbers as they are written.
-fn jacobian(observations: &Observations, columns: &[SampledColumn], hypothesis: Option<&Hypothesis>) -> f64 {
+pub(super) fn jacobian(
+    observations: &Observations,
+    columns: &[SampledColumn],
+    hypothesis: Option<&Hypothesis>,
+) -> f64 {
     let mut all = 0.0;
     for (number, series) in observations.poses.series.iter().enumerate() {
         let rows = series.rows.len() as f64;
@@ -111,7 +118,7 @@ fn jacobian(observations: &Observations, columns: &[SampledColumn], hypothesis: 
 }
 
 /// The scale of a t distribution that suits residuals best.
-fn width(residual: &[f64]) -> f64 {
+pub(super) fn width(residual: &[f64]) -> f64 {
     let mut squares: Vec<f64> = residual.iter().map(|value| value * value).collect();
     squares.sort_by(f64::total_cmp);
     let middle = squares.get(squares.len() / 2).copied().unwrap_or(0.0);
@@ -124,7 +131,7 @@ fn width(residual: &[f64]) -> f64 {
     variance.sqrt()
 }
 
-fn log_density(residual: &[f64], width: f64) -> f64 {
+pub(super) fn log_density(residual: &[f64], width: f64) -> f64 {
     let constant = ln_gamma((DEGREES + 1.0) / 2.0)
         - ln_gamma(DEGREES / 2.0)
         - 0.5 * (DEGREES * std::f64::consts::PI).ln();
@@ -132,7 +139,7 @@ fn log_density(residual: &[f64], width: f64) -> f64 {
     residual.iter().map(kernel).sum::<f64>() + residual.len() as f64 * (constant - width.ln())
 }
 
-fn trimmed(norms: &[f64]) -> f64 {
+pub(super) fn trimmed(norms: &[f64]) -> f64 {
     let mut squares: Vec<f64> = norms.iter().map(|norm| norm * norm).collect();
     squares.sort_by(f64::total_cmp);
     squares.truncate(squares.len() - (squares.len() as f64 * FURTHEST) as usize);

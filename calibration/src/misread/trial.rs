@@ -7,12 +7,14 @@ use fit::{FitOptions, Model, residuals};
 use observe::Observations;
 use study::{Changed, Plan, Sample, SampledColumn};
 
-use super::hypotheses::{self, Hypothesis, QUARTERS, from_row};
-use super::policy::{FITTED, PARTS, SCREENED_STEPS};
-use super::prior::{Priors, indexed};
-use super::score::{Score, score};
+use super::hypotheses::{self, Hypothesis, QUARTERS, both, from_row};
+use super::policy::{FITTED, PAIRED, PARTS, ROUGH_SHARE, SCREENED_STEPS};
+use super::prior::{Priors, indexed, measured_size};
+use super::score::{Score, jacobian, score};
+use super::states;
 
 /// A reading of the data, and what it comes to.
+#[derive(Clone)]
 pub(super) struct Tried {
     pub hypothesis: Hypothesis,
     pub score: Score,
@@ -84,16 +86,65 @@ impl<'a> Trial<'a> {
             all.into_iter().filter_map(|hypothesis| self.screened(hypothesis, as_read)).collect();
         screened.extend(self.of_rows(&screened, as_read));
         best_first(&mut screened);
+        let pairs_of: Vec<Tried> = screened.iter().take(PAIRED).cloned().collect();
+        let mut finalists = self.to_the_end(screened);
+        let is_rough = |score: &Score, observations: &Observations| {
+            score.rms > ROUGH_SHARE * measured_size(observations) || self.priors.is_beyond(&score.values)
+        };
+        let best = finalists.first();
+        if is_rough(as_read, &self.own) && best.is_none_or(|best| is_rough(&best.score, &best.observations)) {
+            finalists.extend(self.to_the_end(self.pairs(&pairs_of)));
+        }
+        finalists.extend(self.two_states(as_read));
+        best_first(&mut finalists);
+        finalists
+    }
+
+    /// The best of some readings, fitted to the end.
+    fn to_the_end(&self, mut screened: Vec<Tried>) -> Vec<Tried> {
+        best_first(&mut screened);
         screened.truncate(FITTED);
-        let to_the_end = |tried: Tried| {
+        let fitted = |tried: Tried| {
             let Tried { hypothesis, score, observations } = tried;
             let steps = self.plan.fit.max_iterations;
             let score = self.score(&observations, &score.values, steps, Some(&hypothesis))?;
             Some(Tried { hypothesis, score, observations })
         };
-        let mut finalists: Vec<Tried> = screened.into_iter().filter_map(to_the_end).collect();
+        let mut finalists: Vec<Tried> = screened.into_iter().filter_map(fitted).collect();
         best_first(&mut finalists);
         finalists
+    }
+
+    /// Two mistakes at once, after a few steps from the errors of either.
+    fn pairs(&self, singles: &[Tried]) -> Vec<Tried> {
+        let pairs = singles.iter().enumerate().flat_map(|(at, one)| {
+            singles[at + 1..].iter().filter_map(move |other| {
+                Some((both::of(&one.hypothesis, &other.hypothesis)?, [&one.score, &other.score]))
+            })
+        });
+        let pairs: Vec<(Hypothesis, [&Score; 2])> = pairs.collect();
+        let tried = |(hypothesis, of): (Hypothesis, [&Score; 2])| {
+            let observations = read(self.plan, self.sample, &hypothesis.changes)?;
+            let starts = [self.plan.fit.start.as_slice(), &of[0].values, &of[1].values];
+            let from = |start: &[f64]| self.score(&observations, start, SCREENED_STEPS, Some(&hypothesis));
+            let score =
+                starts.into_iter().filter_map(from).max_by(|a, b| a.total.total_cmp(&b.total))?;
+            Some(Tried { hypothesis, score, observations })
+        };
+        parallel::each_of(pairs, tried).into_iter().flatten().collect()
+    }
+
+    /// Rows of two kinds that no column tells apart.
+    fn two_states(&self, as_read: &Score) -> Option<Tried> {
+        let rows = states::Rows {
+            plan: self.plan,
+            model: &self.model,
+            observations: &self.own,
+            labels: &self.sample.undeclared(&self.own),
+            jacobian: jacobian(&self.own, &self.columns, None),
+        };
+        let (hypothesis, score) = rows.parted(as_read)?;
+        Some(Tried { hypothesis, score, observations: self.own.clone() })
     }
 
     /// A reading after a few steps, from the errors that the study starts from or from those found so far.

@@ -9,6 +9,9 @@ use observe::SiUnit;
 /// Readings that are shown where several explain the data alike.
 const SHOWN: usize = 3;
 
+/// Rows that are named.
+const ROWS_SHOWN: usize = 8;
+
 /// The misread columns of a diagnosis.
 pub(super) fn misread(diagnosis: &Diagnosis) -> Option<&Misread> {
     diagnosis.cautions.iter().find_map(|caution| match caution {
@@ -54,7 +57,11 @@ pub(super) fn steps(misread: &Misread) -> Vec<Step> {
                 text.push_str(&format!("Write under [{table}]: `{}`. ", lines.join("`, `")));
             }
         }
-        if suspect.lines.is_empty() {
+        if matches!(suspect.reading, Reading::TwoStates { .. }) {
+            text.push_str(
+                "Look for two targets, two prism constants or a play. Write a column that says which, and calibrate each kind alone. ",
+            );
+        } else if suspect.lines.is_empty() {
             text.push_str("Correct these rows in the file. ");
         }
         text.push_str("Then calibrate again.");
@@ -98,6 +105,10 @@ fn title(reading: &Reading) -> &'static str {
         Reading::Turned { .. } => "Move the zero",
         Reading::FromRow { .. } => "Correct these rows",
         Reading::Exchanged { .. } => "Exchange the columns",
+        Reading::Order { .. } => "Change the order of the columns",
+        Reading::Inverse { .. } => "Turn the rotation round",
+        Reading::Both { .. } => "Correct both",
+        Reading::TwoStates { .. } => "Tell the two kinds of rows apart",
         Reading::Shifted { .. } => "Shift the rows",
     }
 }
@@ -126,6 +137,24 @@ fn sentence(reading: &Reading) -> String {
             let on = if *before { "" } else { " on" };
             format!("{} This applies only to the rows {which} row {row}{on}.", sentence(reading))
         }
+        Reading::Order { columns, order } => {
+            format!("Columns {} hold the {order} of the quaternion, not its w, x, y, z.", listed(columns))
+        }
+        Reading::Inverse { columns } => {
+            format!("Columns {} hold the inverse rotation. It turns the other way.", listed(columns))
+        }
+        Reading::Both { readings: [one, other] } => format!("{} {}", sentence(one), sentence(other)),
+        Reading::TwoStates { errors, by, units, rows, of } => {
+            let each = errors.iter().zip(by.iter().zip(units));
+            let each: Vec<String> =
+                each.map(|(name, (by, unit))| format!("{} in `{name}`", short(*by, *unit))).collect();
+            format!(
+                "The rows are of two kinds that differ by {}. {} of {of} rows are of the smaller kind{}.",
+                each.join(" and "),
+                rows.len(),
+                some(rows)
+            )
+        }
         Reading::Exchanged { columns: [one, other] } => {
             format!("The columns `{one}` and `{other}` are exchanged.")
         }
@@ -137,6 +166,13 @@ fn sentence(reading: &Reading) -> String {
             format!("{what} {} {are} {row} compared with the observations.", listed(columns))
         }
     }
+}
+
+/// Some of the rows by their numbers.
+fn some(rows: &[u64]) -> String {
+    let shown: Vec<String> = rows.iter().take(ROWS_SHOWN).map(u64::to_string).collect();
+    let more = if rows.len() > ROWS_SHOWN { ", …" } else { "" };
+    format!(" (rows {}{more})", shown.join(", "))
 }
 
 fn are(columns: &[String]) -> String {

@@ -127,6 +127,10 @@ fn words(reading: &Reading) -> String {
         Reading::Turned { column, .. } => format!("turned: {column}"),
         Reading::FromRow { reading, .. } => format!("from a row, {}", words(reading)),
         Reading::Exchanged { columns } => format!("exchanged: {}", columns.join(" ")),
+        Reading::Order { order, .. } => format!("order: {order}"),
+        Reading::Inverse { .. } => "inverse".to_owned(),
+        Reading::Both { readings: [one, other] } => format!("{} and {}", words(one), words(other)),
+        Reading::TwoStates { errors, .. } => format!("two kinds: {}", errors.join(" ")),
         Reading::Shifted { columns, by } => format!("rows {by}: {}", columns.join(" ")),
     }
 }

@@ -21,7 +21,12 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
         each.map(|per_turn: u32| Hypothesis {
             reading: Reading::Counts { column: column.name.clone(), per_turn },
             changes: vec![Changed::all(column.place, Change::Factor(TAU / f64::from(per_turn)))],
-            lines: vec![line(tried.plan, column, &column.name, &format!(", counts_per_turn = {per_turn}"))],
+            lines: vec![line(
+                tried.plan,
+                column,
+                &column.name,
+                vec![("counts_per_turn", per_turn.to_string())],
+            )],
             price: COUNTS_PRICE,
             digits: 0.0,
         })

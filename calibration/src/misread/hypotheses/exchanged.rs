@@ -1,6 +1,6 @@
 //! Two columns of the same quantity stand for each other.
 
-use super::{Hypothesis, Line, Reading, Tried, line, unit_of};
+use super::{Hypothesis, Reading, Tried, beside_unit, line};
 use crate::misread::policy::EXCHANGED_PRICE;
 use study::{Change, Changed, SampledColumn};
 
@@ -19,9 +19,8 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
 }
 
 fn hypothesis(tried: &Tried<'_>, one: &SampledColumn, other: &SampledColumn) -> Hypothesis {
-    let reads = |column: &SampledColumn, from: &SampledColumn| -> Line {
-        line(tried.plan, column, &from.name, &unit_of(from))
-    };
+    let reads =
+        |column: &SampledColumn, from: &SampledColumn| line(tried.plan, column, &from.name, beside_unit(from, []));
     Hypothesis {
         reading: Reading::Exchanged { columns: [one.name.clone(), other.name.clone()] },
         changes: vec![

@@ -1,20 +1,25 @@
 //! What a study may misread: a registry, one file a kind of mistake, each with the readings that it tries.
 
+pub(super) mod both;
 mod counts;
 mod exchanged;
 pub(super) mod from_row;
+mod order;
 mod packed;
 mod sense;
 mod shifted;
 mod turned;
 mod unit;
+mod written;
 
 use model_core::unit::Unit;
 use model_core::{SymbolId, SymbolKind};
 use serde::Serialize;
 
 use super::policy::RARE;
+use observe::SiUnit;
 use study::{Change, Changed, Notation, Plan, Read, SampledColumn};
+pub(super) use written::Written;
 
 pub(super) use turned::QUARTERS;
 
@@ -26,6 +31,7 @@ const KINDS: &[fn(&Tried<'_>) -> Vec<Hypothesis>] = &[
     sense::tried,
     turned::tried,
     exchanged::tried,
+    order::tried,
     shifted::tried,
 ];
 
@@ -45,7 +51,7 @@ pub(super) struct Tried<'a> {
 pub(super) struct Hypothesis {
     pub reading: Reading,
     pub changes: Vec<Changed>,
-    pub lines: Vec<Line>,
+    pub lines: Vec<Written>,
     /// How improbable it is beforehand, nats.
     pub price: f64,
     /// What the digits alone say for it, nats.
@@ -55,14 +61,15 @@ pub(super) struct Hypothesis {
 impl Hypothesis {
     /// How much a reading of a column changes with the number as it is written.
     pub fn factor(&self, column: &SampledColumn) -> f64 {
-        let own = self.changes.iter().find(|own| own.place == column.place);
-        match own.map(|own| own.change) {
-            Some(Change::Factor(factor)) => factor,
-            Some(Change::Notation(Notation::Degrees)) => 1.0_f64.to_radians(),
-            Some(Change::Notation(Notation::Hours)) => 15e-4_f64.to_radians(),
-            Some(Change::Notation(Notation::Counts(per_turn))) => std::f64::consts::TAU / per_turn,
-            _ => column.factor,
-        }
+        let factor = |own: &Changed| match own.change {
+            Change::Factor(factor) => Some(factor),
+            Change::Notation(Notation::Degrees) => Some(1.0_f64.to_radians()),
+            Change::Notation(Notation::Hours) => Some(15e-4_f64.to_radians()),
+            Change::Notation(Notation::Counts(per_turn)) => Some(std::f64::consts::TAU / per_turn),
+            _ => None,
+        };
+        let own = self.changes.iter().filter(|own| own.place == column.place);
+        own.filter_map(factor).next().unwrap_or(column.factor)
     }
 }
 
@@ -118,6 +125,36 @@ pub enum Reading {
         row: u64,
         /// Whether it is the rows before that one.
         before: bool,
+    },
+    /// The four columns of a quaternion are in another order.
+    Order {
+        /// The columns of the file, as the study reads them: w, x, y, z.
+        columns: Vec<String>,
+        /// What they hold.
+        order: &'static str,
+    },
+    /// A rotation is the inverse of what the study takes it for.
+    Inverse {
+        /// The columns of the file.
+        columns: Vec<String>,
+    },
+    /// Two mistakes at once.
+    Both {
+        /// What they are.
+        readings: [Box<Reading>; 2],
+    },
+    /// Rows are of two kinds that no column tells apart.
+    TwoStates {
+        /// The errors in which they differ.
+        errors: Vec<String>,
+        /// By how much, SI, error by error.
+        by: Vec<f64>,
+        /// Their units.
+        units: Vec<SiUnit>,
+        /// The rows of the smaller kind, of those that were looked at.
+        rows: Vec<u64>,
+        /// How many rows were looked at.
+        of: usize,
     },
     /// Two columns are exchanged.
     Exchanged {
@@ -187,22 +224,27 @@ fn names(columns: &[&SampledColumn]) -> Vec<String> {
     columns.iter().map(|column| column.name.clone()).collect()
 }
 
-/// A line that reads a column so: `how` is what stands behind its name, `, unit = "gon"`.
-fn line(plan: &Plan, column: &SampledColumn, file_column: &str, how: &str) -> Line {
-    let quoted = toml::Value::String(file_column.to_owned());
+/// A line that reads a column so: `how` is what stands behind its name.
+fn line(plan: &Plan, column: &SampledColumn, file_column: &str, how: Vec<(&'static str, String)>) -> Written {
     let (table, key) = match column.read {
         Read::Reading(id) => ("columns", plan.chain.symbol(id).name.clone()),
         Read::Observed(at) => ("observed", plan.observed_key(column.place.source, at).to_owned()),
     };
-    Line { table, text: format!("{key} = {{ column = {quoted}{how} }}") }
+    Written { table, key, column: file_column.to_owned(), how }
 }
 
-/// The unit of the study's line for a column, to be kept in a line that changes something else.
-fn unit_of(column: &SampledColumn) -> String {
-    match named(column) {
-        Some(unit) if column.unit_is_of_study => format!(", unit = \"{unit}\""),
-        _ => String::new(),
-    }
+/// The unit of the study's line for a column, to be kept in a line that changes something else, and what changes.
+fn beside_unit(
+    column: &SampledColumn,
+    how: impl IntoIterator<Item = (&'static str, String)>,
+) -> Vec<(&'static str, String)> {
+    let unit = named(column).filter(|_| column.unit_is_of_study).map(|unit| ("unit", quoted(unit)));
+    unit.into_iter().chain(how).collect()
+}
+
+/// A text as a study's file has it.
+fn quoted(text: &str) -> String {
+    toml::Value::String(text.to_owned()).to_string()
 }
 
 /// The unit that a column is read in.

@@ -2,7 +2,7 @@
 
 use model_core::Quantity;
 
-use super::{Hypothesis, Reading, Tried, line, names, sets};
+use super::{Hypothesis, Reading, Tried, line, names, quoted, sets};
 use crate::misread::policy::PACKED_PRICE;
 use study::{Change, Changed, Notation, SampledColumn};
 
@@ -17,7 +17,7 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
         lines: set
             .iter()
             .map(|column| {
-                line(tried.plan, column, &column.name, &format!(", notation = \"{}\"", notation.name()))
+                line(tried.plan, column, &column.name, vec![("notation", quoted(notation.name()))])
             })
             .collect(),
         price: PACKED_PRICE,

@@ -4,27 +4,36 @@ use std::f64::consts::FRAC_PI_2;
 
 use model_core::Quantity;
 
-use super::{Hypothesis, Reading, Tried, line, unit_of};
+use super::{Hypothesis, Reading, Tried, beside_unit, line};
 use crate::misread::policy::ZENITH_PRICE;
 use study::{Change, Changed, SampledColumn};
 
 pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
     let of_column = |column: &&SampledColumn| {
-        let own = |reading: Reading, change: Change, how: String, price: f64| Hypothesis {
+        let own = |reading: Reading, change: Change, offset: Option<&str>, price: f64| Hypothesis {
             reading,
             changes: vec![Changed::all(column.place, change)],
-            lines: vec![line(tried.plan, column, &column.name, &format!("{}{how}", unit_of(column)))],
+            lines: vec![line(
+                tried.plan,
+                column,
+                &column.name,
+                beside_unit(
+                    column,
+                    [("sign", "-1".to_owned())]
+                        .into_iter()
+                        .chain(offset.map(|offset| ("offset", offset.to_owned()))),
+                ),
+            )],
             price,
             digits: 0.0,
         };
         let name = || column.name.clone();
-        let reversed =
-            own(Reading::Reversed { column: name() }, Change::Reversed(0.0), ", sign = -1".to_owned(), 0.0);
+        let reversed = own(Reading::Reversed { column: name() }, Change::Reversed(0.0), None, 0.0);
         let zenith = (column.quantity == Quantity::Angle).then(|| {
             own(
                 Reading::FromZenith { column: name() },
                 Change::Reversed(FRAC_PI_2),
-                ", sign = -1, offset = \"90 deg\"".to_owned(),
+                Some("\"90 deg\""),
                 ZENITH_PRICE,
             )
         });

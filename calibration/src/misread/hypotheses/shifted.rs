@@ -1,6 +1,6 @@
 //! Readings of joints stand one row off what was observed at them.
 
-use super::{Hypothesis, Reading, Tried, line, names, unit_of};
+use super::{Hypothesis, Reading, Tried, beside_unit, line, names};
 use crate::misread::policy::SHIFTED_PRICE;
 use study::{Change, Changed, SampledColumn};
 
@@ -12,13 +12,13 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
     let mut all = Vec::new();
     for set in sets.iter().filter(|set| !set.is_empty()) {
         for by in [1, -1] {
-            let how = |column: &SampledColumn| format!("{}, shift = {by}", unit_of(column));
+            let how = |column: &SampledColumn| beside_unit(column, [("shift", by.to_string())]);
             all.push(Hypothesis {
                 reading: Reading::Shifted { columns: names(set), by },
                 changes: set.iter().map(|column| Changed::all(column.place, Change::Shift(by))).collect(),
                 lines: set
                     .iter()
-                    .map(|column| line(tried.plan, column, &column.name, &how(column)))
+                    .map(|column| line(tried.plan, column, &column.name, how(column)))
                     .collect(),
                 price: SHIFTED_PRICE,
                 digits: 0.0,

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use model_core::Quantity;
 
-use super::{Hypothesis, Reading, Tried, line, unit_of};
+use super::{Hypothesis, Reading, Tried, beside_unit, line};
 use crate::misread::policy::TURNED_PRICE;
 use study::{Change, Changed, Read, SampledColumn};
 
@@ -19,11 +19,11 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
     let of_column = |column: &&SampledColumn| {
         QUARTERS.map(|quarters| {
             let by_deg = 90 * quarters;
-            let how = format!("{}, offset = \"{by_deg} deg\"", unit_of(column));
+            let how = beside_unit(column, [("offset", format!("\"{by_deg} deg\""))]);
             Hypothesis {
                 reading: Reading::Turned { column: column.name.clone(), by_deg },
                 changes: vec![Changed::all(column.place, Change::Moved(FRAC_PI_2 * f64::from(quarters)))],
-                lines: vec![line(tried.plan, column, &column.name, &how)],
+                lines: vec![line(tried.plan, column, &column.name, how)],
                 price: TURNED_PRICE,
                 digits: 0.0,
             }

@@ -3,7 +3,7 @@
 use model_core::Quantity;
 use model_core::unit::Unit;
 
-use super::{Hypothesis, Line, Reading, Tried, line, named, names, sets};
+use super::{Hypothesis, Reading, Tried, line, named, names, quoted, sets};
 use study::{Change, Changed, SampledColumn};
 
 /// Units that files are written in.
@@ -27,9 +27,8 @@ fn hypothesis(tried: &Tried<'_>, columns: &[&SampledColumn], unit: &str) -> Opti
     if !columns.iter().all(is_open) {
         return None;
     }
-    let how = format!(", unit = \"{}\"", unit.name());
-    let lines: Vec<Line> =
-        columns.iter().map(|column| line(tried.plan, column, &column.name, &how)).collect();
+    let how = || vec![("unit", quoted(unit.name()))];
+    let lines = columns.iter().map(|column| line(tried.plan, column, &column.name, how())).collect();
     let read = columns.first().and_then(|column| named(column));
     Some(Hypothesis {
         reading: Reading::Unit { columns: names(columns), is: unit.name(), read },

@@ -1,7 +1,8 @@
 //! Small dense algebra: Cholesky factors, and the spectrum of a symmetric matrix with one vector in its axes.
 
+use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
-use faer::{Mat, MatMut, MatRef, Par, Side};
+use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
 
 /// The lower Cholesky factor. Where rounding makes the matrix indefinite, the diagonal grows by as little as helps.
 pub(crate) fn cholesky(matrix: &Mat<f64>) -> Option<Mat<f64>> {
@@ -17,6 +18,30 @@ pub(crate) fn cholesky(matrix: &Mat<f64>) -> Option<Mat<f64>> {
         nudge = if nudge == 0.0 { 1e-13 } else { nudge * 30.0 };
     }
     None
+}
+
+/// Adds the inner products of columns to the lower triangle of a matrix.
+pub(crate) fn add_products(lower: MatMut<'_, f64>, columns: MatRef<'_, f64>) {
+    let (structure, whole) = (BlockStructure::TriangularLower, BlockStructure::Rectangular);
+    triangular::matmul(
+        lower,
+        structure,
+        Accum::Add,
+        columns.transpose(),
+        whole,
+        columns,
+        whole,
+        1.0,
+        Par::Seq,
+    );
+}
+
+/// The inner products of columns.
+pub(crate) fn products(columns: &Mat<f64>) -> Mat<f64> {
+    let width = columns.ncols();
+    let mut lower = Mat::zeros(width, width);
+    add_products(lower.as_mut(), columns.as_ref());
+    Mat::from_fn(width, width, |row, column| lower[(row.max(column), row.min(column))])
 }
 
 /// L⁻¹ times each column.

@@ -145,7 +145,7 @@ fn memories(run: &Run, told: &Model, quantity: &Quantity) -> Vec<(f64, Moments)>
     }
     let small = Small::of(&run.bench, &told.active, told.state.point);
     let noise = &run.bench.noises[told.state.noise];
-    let (_, grid) = small.memories(noise);
+    let grid = small.memories(noise);
     let best = grid.iter().fold(f64::NEG_INFINITY, |best: f64, (evidence, _)| best.max(*evidence));
     let near = grid.into_iter().filter(|(evidence, _)| *evidence > best - NEGLIGIBLE);
     near.filter_map(|(evidence, memory)| {

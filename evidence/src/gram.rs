@@ -1,8 +1,8 @@
 //! The Gram matrix of [y J Z] after whitening: all that a contest reads of the rows.
 
-use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::{Accum, Mat, Par};
 
+use crate::algebra::add_products;
 use crate::design::Table;
 use crate::noise::{Memory, Noise};
 use crate::point::Point;
@@ -75,17 +75,7 @@ impl Gram {
             let whole = block.as_ref().subrows(0, height);
             let new = whole.subcols(old, width - old);
             if old == 0 {
-                triangular::matmul(
-                    products.as_mut(),
-                    BlockStructure::TriangularLower,
-                    Accum::Add,
-                    whole.transpose(),
-                    BlockStructure::Rectangular,
-                    whole,
-                    BlockStructure::Rectangular,
-                    1.0,
-                    Par::Seq,
-                );
+                add_products(products.as_mut(), whole);
             } else {
                 faer::linalg::matmul::matmul(
                     products.as_mut(),

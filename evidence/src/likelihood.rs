@@ -5,7 +5,7 @@ use std::sync::Arc;
 use faer::Mat;
 use rayon::prelude::*;
 
-use crate::algebra::{cholesky, dot, half_log_det, solve_lower, solve_upper, spectrum};
+use crate::algebra::{cholesky, dot, half_log_det, products, solve_lower, solve_upper, spectrum};
 use crate::families::{Driver, Where};
 use crate::gram::Gram;
 use crate::policy::{Policy, SCALES};
@@ -56,6 +56,15 @@ pub(crate) struct Solved {
     pub rest: f64,
     /// ½ log|K| − ½ Σ log D.
     half_log_det: f64,
+}
+
+impl Solved {
+    fn mean(&self) -> Vec<f64> {
+        let mut mean = self.forward.clone();
+        solve_upper(&self.factor, &mut mean);
+        mean.iter_mut().zip(&self.deviations).for_each(|(mean, deviation)| *mean *= deviation);
+        mean
+    }
 }
 
 /// Mean and covariance of all coefficients.
@@ -257,18 +266,21 @@ impl View<'_> {
         Some(enough * axes.total / (self.freedom + self.declared as f64) * solved.rest / self.freedom)
     }
 
+    /// Mean of all coefficients of an active set, with the numbers of their columns.
+    pub fn mean(&self, active: &[(usize, f64)]) -> Option<(Vec<usize>, Vec<f64>)> {
+        let solved = self.solve(active)?;
+        let mean = solved.mean();
+        Some((solved.columns, mean))
+    }
+
     /// Mean and covariance of all coefficients of an active set.
     pub fn posterior(&self, active: &[(usize, f64)]) -> Option<Posterior> {
         let solved = self.solve(active)?;
         let count = solved.columns.len();
-        let mut mean = solved.forward.clone();
-        solve_upper(&solved.factor, &mut mean);
-        for (mean, deviation) in mean.iter_mut().zip(&solved.deviations) {
-            *mean *= deviation;
-        }
+        let mean = solved.mean();
         let mut inverse = Mat::<f64>::identity(count, count);
         solve_lower(solved.factor.as_ref(), inverse.as_mut());
-        let whole = inverse.transpose() * &inverse;
+        let whole = products(&inverse);
         let shape =
             Mat::from_fn(count, count, |a, b| whole[(a, b)] * solved.deviations[a] * solved.deviations[b]);
         let variance = solved.rest / self.freedom * self.inflation;

@@ -4,11 +4,13 @@ use std::sync::Arc;
 
 use faer::Mat;
 
+use crate::algebra::products;
 use crate::bench::{Bench, State};
 use crate::gram::Gram;
 use crate::greedy::tune;
 use crate::likelihood::{Active, Scaled, View};
 use crate::noise::{Memory, Noise};
+use crate::policy::{MEMORY, PART};
 use crate::record::Recorder;
 use crate::setups::Cuts;
 
@@ -85,7 +87,7 @@ impl<'a> Small<'a> {
         let white = whitened(&self.columns, problem.components, &noise.weights, memory);
         let log_det = noise.log_det(memory, problem.rows.count, problem.components);
         View {
-            gram: Arc::new(Gram { products: white.transpose() * &white, log_det }),
+            gram: Arc::new(Gram { products: products(&white), log_det }),
             families: &self.families,
             policy: self.bench.policy,
             declared: self.bench.points[0].declared.len(),
@@ -115,8 +117,8 @@ impl<'a> Small<'a> {
     pub fn residual(&self, noise: &Noise) -> Vec<f64> {
         let view = self.view(noise, None);
         let mut residual: Vec<f64> = self.columns.col(0).iter().copied().collect();
-        if let Some(posterior) = view.posterior(&self.active) {
-            for (&number, mean) in posterior.columns.iter().zip(&posterior.mean) {
+        if let Some((columns, means)) = view.mean(&self.active) {
+            for (&number, mean) in columns.iter().zip(&means) {
                 for (value, column) in residual.iter_mut().zip(self.columns.col(number).iter()) {
                     *value -= mean * column;
                 }
@@ -125,30 +127,54 @@ impl<'a> Small<'a> {
         residual
     }
 
-    /// Log evidence without and with each memory of the grid.
-    pub fn memories(&self, noise: &Noise) -> (f64, Vec<(f64, Memory)>) {
-        let evidence = |memory| self.view(noise, memory).log_evidence(&self.active);
-        let mut grid = Vec::new();
-        for carried in crate::policy::MEMORY {
-            for part in crate::policy::PART {
-                let memory = Memory { carried, part };
-                grid.push((evidence(Some(memory)), memory));
+    fn evidence(&self, noise: &Noise, memory: Option<Memory>) -> f64 {
+        self.view(noise, memory).log_evidence(&self.active)
+    }
+
+    /// Log evidence with each memory of the grid.
+    pub fn memories(&self, noise: &Noise) -> Vec<(f64, Memory)> {
+        let all = MEMORY.iter().flat_map(|&carried| PART.map(|part| Memory { carried, part }));
+        all.map(|memory| (self.evidence(noise, Some(memory)), memory)).collect()
+    }
+
+    /// Log evidence without memory, and with the likeliest of the grid: of every second value, then of those beside the best.
+    pub fn best_memory(&self, noise: &Noise) -> (f64, f64, Memory) {
+        let at = |[carried, part]: [usize; 2]| {
+            let memory = Memory { carried: MEMORY[carried], part: PART[part] };
+            (self.evidence(noise, Some(memory)), memory)
+        };
+        let coarse: Vec<[usize; 2]> = (1..MEMORY.len())
+            .step_by(2)
+            .flat_map(|carried| (1..PART.len()).step_by(2).map(move |part| [carried, part]))
+            .collect();
+        let mut best = (f64::NEG_INFINITY, [1, 1], Memory { carried: MEMORY[1], part: PART[1] });
+        let take = |place: [usize; 2], best: &mut (f64, [usize; 2], Memory)| {
+            let (evidence, memory) = at(place);
+            if evidence > best.0 {
+                *best = (evidence, place, memory);
+            }
+        };
+        coarse.iter().for_each(|&place| take(place, &mut best));
+        let [carried, part] = best.1;
+        for carried in carried.saturating_sub(1)..(carried + 2).min(MEMORY.len()) {
+            for part in part.saturating_sub(1)..(part + 2).min(PART.len()) {
+                if !coarse.contains(&[carried, part]) {
+                    take([carried, part], &mut best);
+                }
             }
         }
-        (evidence(None), grid)
+        (self.evidence(noise, None), best.0, best.2)
     }
 }
 
 impl Bench<'_> {
     /// RMS of the last family's effect at the posterior mean, without weights.
     pub fn shown(&self, active: &[(usize, f64)], state: State) -> Option<f64> {
-        let posterior = self.view(state).posterior(active)?;
+        let (numbers, mean) = self.view(state).mean(active)?;
         let own = self.scaled[active.last()?.0].columns.len();
-        let first = posterior.columns.len() - own;
-        let columns =
-            self.table.some(&self.points[state.point], &posterior.columns[first..], self.problem.rows.count);
-        let value =
-            |row: usize| (0..own).map(|at| columns[(row, at)] * posterior.mean[first + at]).sum::<f64>();
+        let first = numbers.len() - own;
+        let columns = self.table.some(&self.points[state.point], &numbers[first..], self.problem.rows.count);
+        let value = |row: usize| (0..own).map(|at| columns[(row, at)] * mean[first + at]).sum::<f64>();
         let squares: f64 = (0..columns.nrows()).map(|row| value(row).powi(2)).sum();
         Some((squares / columns.nrows() as f64).sqrt())
     }

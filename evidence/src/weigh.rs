@@ -81,13 +81,7 @@ impl Bench<'_> {
         if !self.problem.rows.in_order || (self.problem.rows.count as f64) < self.policy.rows_for_order {
             return None;
         }
-        let (without, grid) = Small::of(self, active, point).memories(&self.noises[noise]);
-        let mut best = (without + self.policy.price_memory, None);
-        for (evidence, memory) in grid {
-            if evidence > best.0 {
-                best = (evidence, Some(memory));
-            }
-        }
-        best.1
+        let (without, with, memory) = Small::of(self, active, point).best_memory(&self.noises[noise]);
+        (with > without + self.policy.price_memory).then_some(memory)
     }
 }

@@ -124,7 +124,7 @@ impl Data {
             let name = instrument.observed_names[at];
             let unit = match instrument.observed {
                 Observed::Spherical => Some("deg"),
-                Observed::Direction => None,
+                Observed::Direction | Observed::Quaternion => None,
                 Observed::Point => Some("m"),
             };
             let numbers = unit.map_or_else(|| values.clone(), |unit| in_unit(&values, unit));
@@ -157,6 +157,7 @@ impl Data {
             Observed::Spherical => "spherical",
             Observed::Direction => "direction",
             Observed::Point => "point",
+            Observed::Quaternion => "orientation",
         };
         let mut text = "chain = \"instrument.chain\"\ndata = \"data.csv\"\n[columns]\n".to_owned();
         self.joints.iter().for_each(|column| text += &line(column));

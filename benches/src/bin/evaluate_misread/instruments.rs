@@ -30,6 +30,8 @@ pub enum Observed {
     Direction,
     /// A point; three columns of lengths.
     Point,
+    /// How the last body is turned: a quaternion w, x, y, z; four columns without a unit.
+    Quaternion,
 }
 
 pub struct Instrument {
@@ -182,6 +184,33 @@ pub const INSTRUMENTS: &[Instrument] = &[
         noise: 3e-4,
     },
     Instrument {
+        name: "wrist",
+        chain: "chain Wrist {
+    body fore on ground { motion: Rz(q4); motion_error: Rz(zero4), Rx(tilt4); }
+    body bend on fore { motion: Ry(q5); motion_error: Ry(zero5), Rz(skew5); }
+    body hand on bend { motion: Rz(q6); motion_error: Rz(zero6), Rx(lean6); }
+    observe pose: orientation of hand;
+}
+",
+        joints: &[("q4", -170.0, 170.0), ("q5", -100.0, 100.0), ("q6", -170.0, 170.0)],
+        indexed: true,
+        steps: &[
+            Joint(2, 1.0, 0),
+            Error(2, 1.0, 0),
+            Error(0, 1.0, 1),
+            Joint(1, 1.0, 1),
+            Error(1, 1.0, 2),
+            Error(2, 1.0, 3),
+            Joint(2, 1.0, 2),
+            Error(2, 1.0, 4),
+            Error(0, 1.0, 5),
+        ],
+        last: [0.0, 0.0, 0.0],
+        observed: Observed::Quaternion,
+        observed_names: &["w", "x", "y", "z"],
+        noise: 5e-5,
+    },
+    Instrument {
         name: "turntable",
         chain: "chain Turntable {
     body table on ground { position_error: Rx(tilt_x), Ry(tilt_y); motion: Rz(angle); motion_error: Rz(index); }
@@ -220,8 +249,52 @@ impl Instrument {
 
     /// What is observed, rad, m or 1, at joints, rad or m, with errors, rad or m.
     pub fn observed_at(&self, joints: &[f64], errors: &[f64], random: &mut Random) -> Vec<f64> {
+        if self.observed == Observed::Quaternion {
+            return self.quaternion_at(joints, errors, random);
+        }
+        let mut vector = self.carried(self.last, joints, errors);
+        vector.iter_mut().for_each(|value| *value += self.noise * random.normal());
+        match self.observed {
+            Observed::Spherical => {
+                let [x, y, z] = vector;
+                vec![x.atan2(y), z.atan2(x.hypot(y))]
+            }
+            Observed::Direction => {
+                let size = vector.iter().map(|value| value * value).sum::<f64>().sqrt();
+                vector.iter().map(|value| value / size).collect()
+            }
+            Observed::Point | Observed::Quaternion => vector.to_vec(),
+        }
+    }
+
+    /// How the last body is turned, with noise about each axis.
+    fn quaternion_at(&self, joints: &[f64], errors: &[f64], random: &mut Random) -> Vec<f64> {
+        let noise = [0; 3].map(|_| self.noise * random.normal());
+        let column = |axis: usize| {
+            let mut unit = [0.0; 3];
+            unit[axis] = 1.0;
+            let turned_by_noise = (0..3).fold(unit, |vector, axis| turned(axis, noise[axis], vector));
+            self.carried(turned_by_noise, joints, errors)
+        };
+        // Entry [column][row] of the matrix.
+        let m = [column(0), column(1), column(2)];
+        let four = [
+            1.0 + m[0][0] + m[1][1] + m[2][2],
+            1.0 + m[0][0] - m[1][1] - m[2][2],
+            1.0 - m[0][0] + m[1][1] - m[2][2],
+            1.0 - m[0][0] - m[1][1] + m[2][2],
+        ];
+        let [xy, xz, yz] = [m[0][1] + m[1][0], m[0][2] + m[2][0], m[1][2] + m[2][1]];
+        let [wx, wy, wz] = [m[1][2] - m[2][1], m[2][0] - m[0][2], m[0][1] - m[1][0]];
+        // The row of products with the largest component is the most exact.
+        let rows = [[four[0], wx, wy, wz], [wx, four[1], xy, xz], [wy, xy, four[2], yz], [wz, xz, yz, four[3]]];
+        let largest = (1..4).fold(0, |best, at| if four[at] > four[best] { at } else { best });
+        rows[largest].iter().map(|value| value / (2.0 * four[largest].sqrt())).collect()
+    }
+
+    /// A vector of the last frame in the ground's.
+    fn carried(&self, mut vector: [f64; 3], joints: &[f64], errors: &[f64]) -> [f64; 3] {
         let is_point = self.observed == Observed::Point;
-        let mut vector = self.last;
         for step in self.steps.iter().rev() {
             match *step {
                 Joint(axis, factor, joint) => vector = turned(axis, factor * joints[joint], vector),
@@ -233,17 +306,6 @@ impl Instrument {
                 Length(..) | Shift(..) | Slide(..) => {}
             }
         }
-        vector.iter_mut().for_each(|value| *value += self.noise * random.normal());
-        match self.observed {
-            Observed::Spherical => {
-                let [x, y, z] = vector;
-                vec![x.atan2(y), z.atan2(x.hypot(y))]
-            }
-            Observed::Direction => {
-                let size = vector.iter().map(|value| value * value).sum::<f64>().sqrt();
-                vector.iter().map(|value| value / size).collect()
-            }
-            Observed::Point => vector.to_vec(),
-        }
+        vector
     }
 }

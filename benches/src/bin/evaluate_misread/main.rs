@@ -133,7 +133,11 @@ fn clean(asked: &Asked) -> Result<String, Failure> {
             let instrument = may_be[run % may_be.len()];
             let rows = CLEAN_ROWS[run / may_be.len() % CLEAN_ROWS.len()];
             let data = Data::simulated(instrument, rows, *habit, random);
-            of_clean(&data).map(|(named, withheld)| (named, withheld, instrument.name, rows))
+            of_clean(&data).map(|(mut named, withheld)| {
+                // A play that rests on either side makes two kinds of rows in truth.
+                named.retain(|name| *habit != Habit::Backlash || !name.starts_with("two kinds"));
+                (named, withheld, instrument.name, rows)
+            })
         };
         let answers: Vec<_> = (0..runs).into_par_iter().map(run).collect::<Result<_, Failure>>()?;
         for (named, _, instrument, rows) in answers.iter().filter(|(named, ..)| !named.is_empty()) {
@@ -155,7 +159,7 @@ fn page(asked: &Asked, text: &str) -> String {
 
 <!-- Written by `cargo run --release -p trueaxis-benches --bin evaluate_misread -- --runs {} --clean {} --seed {} --page FILE` -->
 
-Files of six instruments are simulated, and one mistake is made in each. `calibrate` is asked what it says of the columns, before
+Files of seven instruments are simulated, and one mistake is made in each. `calibrate` is asked what it says of the columns, before
 it looks for any effect. The simulators share no code with the program.
 
 - *named first*: the mistake is the first reading that is told. *among those named*: several explain the data alike, and it is one.

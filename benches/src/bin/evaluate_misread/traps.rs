@@ -101,6 +101,16 @@ fn point(instrument: &Instrument) -> bool {
     instrument.observed == Observed::Point
 }
 
+fn quaternion(instrument: &Instrument) -> bool {
+    instrument.observed == Observed::Quaternion
+}
+
+/// Two readings of the words in either order.
+fn both(one: &Names, other: &Names) -> Names {
+    let pairs = one.iter().flat_map(|one| other.iter().map(move |other| [one, other]));
+    pairs.flat_map(|[one, other]| [format!("{one} and {other}"), format!("{other} and {one}")]).collect()
+}
+
 fn several(instrument: &Instrument) -> bool {
     instrument.joints.len() > 1
 }
@@ -109,6 +119,9 @@ fn several(instrument: &Instrument) -> bool {
 fn two_angles(instrument: &Instrument) -> bool {
     several(instrument) && !(0..instrument.joints.len()).any(|joint| instrument.slides(joint))
 }
+
+/// The declared zero of the first joint, of each instrument that has one.
+const INDICES: [&str; 6] = ["azimuth_index", "ha_index", "zero1", "pan_index", "zero4", "index"];
 
 pub const TRAPS: &[Trap] = &[
     Trap { name: "joints in gon", on: any, spoil: |data, _| written_in(angles(data), "gon") },
@@ -222,6 +235,72 @@ pub const TRAPS: &[Trap] = &[
             let by = [90.0, -90.0][random.below(2)];
             data.joints[at].numbers.iter_mut().for_each(|number| *number += by);
             vec![format!("turned: {}", data.joints[at].name)]
+        },
+    },
+    Trap {
+        name: "points in mm, and a component with the other sign",
+        on: point,
+        spoil: |data, random| {
+            let unit = written_in(data.observed.iter_mut().collect(), "mm");
+            let at = random.below(3);
+            scaled(&mut data.observed[at], -1.0);
+            both(&unit, &vec![format!("reversed: {}", data.observed[at].name)])
+        },
+    },
+    Trap {
+        name: "joints in gon, and one counts the other way",
+        on: two_angles,
+        spoil: |data, random| {
+            let unit = written_in(angles(data), "gon");
+            let at = random.below(data.joints.len());
+            scaled(&mut data.joints[at], -1.0);
+            both(&unit, &reversed(data, &data.joints[at].name))
+        },
+    },
+    Trap {
+        name: "a quaternion with its scalar last",
+        on: quaternion,
+        spoil: |data, _| {
+            let w = std::mem::take(&mut data.observed[0].numbers);
+            for at in 0..3 {
+                data.observed[at].numbers = std::mem::take(&mut data.observed[at + 1].numbers);
+            }
+            data.observed[3].numbers = w;
+            vec!["order: x, y, z, w".to_owned()]
+        },
+    },
+    Trap {
+        name: "a quaternion of the inverse rotation",
+        on: quaternion,
+        spoil: |data, _| {
+            data.observed[1..].iter_mut().for_each(|column| scaled(column, -1.0));
+            vec!["inverse".to_owned()]
+        },
+    },
+    Trap {
+        name: "a joint rests on either side of a play of half a degree",
+        on: |instrument| instrument.indexed,
+        spoil: |data, random| {
+            for number in &mut data.joints[0].numbers {
+                *number += if random.even() < 0.5 { 0.25 } else { -0.25 };
+            }
+            INDICES.iter().map(|index| format!("two kinds: {index}")).collect()
+        },
+    },
+    Trap {
+        name: "two prism constants, 34.4 mm apart",
+        on: |instrument| instrument.name == "total station",
+        spoil: |data, random| {
+            for row in 0..data.rows {
+                let range_m =
+                    data.observed.iter().map(|column| column.numbers[row].powi(2)).sum::<f64>().sqrt();
+                if random.even() < 0.4 {
+                    data.observed
+                        .iter_mut()
+                        .for_each(|column| column.numbers[row] *= 1.0 + 0.0344 / range_m);
+                }
+            }
+            vec!["two kinds: zero".to_owned()]
         },
     },
     Trap { name: "joints one row off", on: any, spoil: |data, _| shifted(&mut data.joints, 1) },

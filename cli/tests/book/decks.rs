@@ -23,7 +23,7 @@ section { display: flex; flex-direction: column; }
 h1 { font-size: 1.4em; margin: 0 0 .5em; }
 p, ul, pre { margin: 0 0 .6em; }
 blockquote { margin: 0 0 .5em; font-size: 1.2em; }
-section:not(:has(img)) blockquote { font-size: 1.7em; }
+section:not(:has(img)) blockquote { font-size: 1.5em; }
 img { flex: 1 1 0; min-height: 30vh; width: 100%; box-sizing: border-box; padding: 1vh 1vw; object-fit: contain; background: #fff; }
 pre { white-space: pre-wrap; overflow-wrap: anywhere; }
 aside { display: none; border-top: 2px solid; margin-top: 1em; padding-top: .4em; }

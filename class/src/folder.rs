@@ -45,15 +45,44 @@ pub fn folder_name(number: usize, name: &str) -> String {
         if folder.len() >= KEPT {
             break;
         }
-        if letter.is_ascii_alphanumeric() {
-            if gap {
-                folder.push('-');
-            }
-            folder.push(letter.to_ascii_lowercase());
+        let plain = plain(letter);
+        if !plain.is_empty() && gap {
+            folder.push('-');
         }
-        gap = !letter.is_ascii_alphanumeric();
+        folder.push_str(&plain);
+        gap = plain.is_empty();
     }
     folder
+}
+
+/// A letter without its accent, as a file name has it; nothing for what is no Latin letter or digit.
+fn plain(letter: char) -> String {
+    let lower: String = letter.to_lowercase().filter(|own| own.is_alphanumeric()).collect();
+    let same = match lower.chars().next().unwrap_or_default() {
+        'à'..='å' | 'ā' | 'ă' | 'ą' => "a",
+        'ç' | 'ć' | 'ĉ' | 'ċ' | 'č' => "c",
+        'ð' | 'ď' | 'đ' => "d",
+        'è'..='ë' | 'ē' | 'ĕ' | 'ė' | 'ę' | 'ě' => "e",
+        'ĝ' | 'ğ' | 'ġ' | 'ģ' => "g",
+        'ì'..='ï' | 'ĩ' | 'ī' | 'į' | 'ı' | 'i' => "i",
+        'ķ' => "k",
+        'ĺ' | 'ļ' | 'ľ' | 'ł' => "l",
+        'ñ' | 'ń' | 'ņ' | 'ň' => "n",
+        'ò'..='ö' | 'ø' | 'ō' | 'ő' => "o",
+        'ŕ' | 'ř' => "r",
+        'ś' | 'ş' | 'š' | 'ș' => "s",
+        'ţ' | 'ť' | 'ț' => "t",
+        'ù'..='ü' | 'ũ' | 'ū' | 'ŭ' | 'ů' | 'ű' | 'ų' => "u",
+        'ý' | 'ÿ' => "y",
+        'ź' | 'ż' | 'ž' => "z",
+        'æ' => "ae",
+        'œ' => "oe",
+        'ß' => "ss",
+        'þ' => "th",
+        own if own.is_ascii_alphanumeric() => return own.to_string(),
+        _ => "",
+    };
+    same.to_owned()
 }
 
 fn headings(task: &Task) -> [String; 2] {
@@ -141,6 +170,17 @@ fn promise(level: Level) -> &'static str {
     }
 }
 
+/// What is to be done about columns and set-ups, where a level promises that.
+fn disturbed(level: Level) -> &'static str {
+    if level.difficulty().is_disturbed {
+        "\n   If the report proposes another reading of a column, compare it with the readings below, change `study.toml` and fit \
+         again. If the set-ups differ, say so in the declaration. `Rx(e*second)` is an error `e` of the second set-up alone. Declare \
+         it before you decide what else is missing."
+    } else {
+        ""
+    }
+}
+
 fn sheet(task: &Task, name: &str, mark: &str) -> String {
     let [first, second] = task.instrument.joints();
     let [one, two] = task.asked_pose.joints_deg;
@@ -165,9 +205,13 @@ second set-up and 0 in the first.
 
 ## What to do
 
-1. Fit and look: `trueaxis calibrate study.toml --out result`, then open `result/report.html`.
-2. Decide what is missing, and write it into a copy of the declaration, `{AMENDED}`.
-3. Answer in `{ANSWER}`, and hand in both files in this folder.
+1. Fit and look: `trueaxis calibrate study.toml --out result`, then open `result/report.html`.{disturbed}
+2. Decide what is missing. The report names causes that are not on this sheet, too. Leave those out. To test a cause of this sheet, write \
+its factor into the declaration and fit. The data exclude it if its residual (RMS, fitted data) is more than 2 % larger than the \
+smallest.
+3. Write what is missing into a copy of the declaration, `{AMENDED}`. `result/{AMENDED}` is a copy with what the program found.
+4. Fit your copy. Write `chain = \"{AMENDED}\"` into `study.toml`, and calibrate again with `--out final`.
+5. Answer in `{ANSWER}`, and hand in both files in this folder.
 
 ## What to answer
 
@@ -178,12 +222,15 @@ second set-up and 0 in the first.
 
 {readings}
 **`size`**: the size of the largest effect that follows `{first}` or `{second}`. It is half the difference between the largest and the \
-smallest amount of its factor over your rows. For `a*cos({first}) + b*sin({first})` over a full turn that is √(a² + b²).
+smallest amount of its factor over your rows. For `a*cos({first}) + b*sin({first})` over a full turn that is √(a² + b²). Over less than a turn, let a spreadsheet find both amounts. \
+If the size is u·a + v·b with numbers u and v, its variance is u² var(a) + v² var(b) + 2uv cov(a, b). `final/instrument.toml` has the \
+covariance in rad².
 
 **`error`**: the value of `{asked}`.
 
 **`prediction`**: z of the error of the pointing at `{first}` = {one}°, `{second}` = {two}°, at 15 °C in the first set-up. \
-`trueaxis eval {AMENDED} --errors result/errors.toml --data pose.csv --out -` computes it in rad. One rad is 206 265″.
+`trueaxis eval final/{AMENDED} --errors final/errors.toml --data pose.csv --out -` computes it in rad. One rad is 206 265″. \
+`trueaxis apply final/instrument.toml --data pose.csv --uncertainty --out -` computes its ± as `z_uncertainty`.
 
 **`sentence`**: the number of the one sentence that is right.
 
@@ -194,6 +241,7 @@ Every number has the unit ″. Each ± is one standard uncertainty. A ± that is
         level = u8::from(task.level),
         words = task.instrument.words,
         promise = promise(task.level),
+        disturbed = disturbed(task.level),
         declared = DECLARED_ARCSEC,
         rows = task.rows.len(),
         noise = task.level.difficulty().noise_arcsec,

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use model_core::escape::clipped;
 use model_core::{SymbolId, TransformKind};
 use serde::Serialize;
 
-use crate::answer::{Answer, Number};
+use crate::answer::{Answer, ItemError, Number};
 use crate::cause::Cause;
 use crate::design::Design;
 use crate::key::{Key, KeyError, Student};
@@ -52,6 +53,8 @@ pub struct Marked {
     pub grades: Vec<Grade>,
     /// Why nothing could be graded.
     pub not_graded: Option<String>,
+    /// Keys of the answer that no item has.
+    pub left_out: Vec<String>,
     /// The secret.
     pub secret: Vec<String>,
 }
@@ -65,9 +68,9 @@ type Declared<'a> = Result<&'a Model, &'a String>;
 /// The key is of another version. Whatever is wrong with the answer costs points and is told there.
 pub fn grade(key: &Key, student: &Student, handed: &Handed) -> Result<Marked, KeyError> {
     let task = key.task(student)?;
-    let (grades, not_graded) = match read(key, student, handed) {
-        Ok(answer) => (grades(&task, &answer, &handed.declaration), None),
-        Err(why) => (Vec::new(), Some(why)),
+    let (grades, not_graded, left_out) = match read(key, student, handed) {
+        Ok(answer) => (grades(&task, &answer, &handed.declaration), None, answer.unknown()),
+        Err(why) => (Vec::new(), Some(why), Vec::new()),
     };
     Ok(Marked {
         name: student.name.clone(),
@@ -76,6 +79,7 @@ pub fn grade(key: &Key, student: &Student, handed: &Handed) -> Result<Marked, Ke
         points: grades.iter().fold(0.0, |sum, grade| sum + grade.points),
         grades,
         not_graded,
+        left_out,
         secret: student.secret.clone(),
     })
 }
@@ -109,14 +113,19 @@ fn grades(task: &Task, answer: &Answer, declaration: &Result<String, String>) ->
             (share, why + &unread)
         }
         Item::Cause => match answer.causes() {
-            Ok(named) => cause(task, &named, read_as),
+            Ok(named) => {
+                let (share, why) = cause(task, &named, read_as);
+                let counted =
+                    |word: String| format!(" `{word}` is no cause of the sheet and counts as a wrong one.");
+                (share, why + &answer.no_causes().into_iter().map(counted).collect::<String>())
+            }
             Err(error) => (0.0, format!("{error}.")),
         },
-        Item::Size => number(answer.size, task.numbers[0]),
-        Item::Error => number(answer.error, task.numbers[1]),
-        Item::Prediction => number(answer.prediction, task.numbers[2]),
+        Item::Size => number(answer.number("size"), task.numbers[0]),
+        Item::Error => number(answer.number("error"), task.numbers[1]),
+        Item::Prediction => number(answer.number("prediction"), task.numbers[2]),
         Item::Unseen => unseen(task, model.as_ref(), read_as),
-        Item::Honesty => honesty(task, answer.sentence),
+        Item::Honesty => honesty(task, answer.sentence()),
     };
     let graded = |(item, of): (Item, f64)| {
         let (share, why) = of_item(item);
@@ -173,28 +182,31 @@ fn place(task: &Task, model: Declared<'_>, reading: Reading) -> (f64, String) {
             || Design::new(declared.iter().chain(&own[place])).left_of(&effect.signature) < EXCLUDED
     };
     let found = task.effects.iter().filter(|effect| added.keys().any(|place| does(place, effect))).count();
-    let idle = added.keys().filter(|place| !task.effects.iter().any(|effect| does(place, effect))).count();
+    let is_idle = |place: &&Place| !task.effects.iter().any(|effect| does(place, effect));
+    let idle: Vec<&Place> = added.keys().filter(is_idle).collect();
     let is_misread = usize::from(task.reading != Reading::AsLabelled);
     let right = found + usize::from(is_misread == 1 && reading == task.reading);
-    let wrong = idle + usize::from(reading != Reading::AsLabelled && reading != task.reading);
+    let is_read_wrongly = reading != Reading::AsLabelled && reading != task.reading;
+    let wrong = idle.len() + usize::from(is_read_wrongly);
     let all = task.effects.len() + is_misread;
-    let why = match wrong {
-        0 => format!("{right} of {all} found."),
-        _ => format!(
-            "{right} of {all} found. In {wrong} places something was added or read otherwise where nothing is missing."
-        ),
-    };
+    let mut why = format!("{right} of {all} found.");
+    for (body, moves) in idle {
+        why += &format!(" No effect needs what you added as `{moves}` in `{}`.", clipped(body));
+    }
+    if is_read_wrongly {
+        why += &format!(" The reading `{}` is wrong.", reading.word());
+    }
     (right as f64 / (all + wrong) as f64, why)
 }
 
-fn cause(task: &Task, named: &[Vec<Cause>], reading: Reading) -> (f64, String) {
+fn cause(task: &Task, named: &[Vec<Option<Cause>>], reading: Reading) -> (f64, String) {
     let mut sets: Vec<&[Cause]> = task.effects.iter().map(|effect| effect.possible.as_slice()).collect();
     let why = sets.iter().map(|set| format!("`{}`", words(set))).collect::<Vec<_>>().join(" and ");
     let mut earned = 0.0;
     // Whole sets first, so that a part of one does not take the place of another.
     let mut partly = Vec::new();
     for own in named {
-        match sets.iter().position(|set| set == own) {
+        match sets.iter().position(|set| set.iter().copied().map(Some).eq(own.iter().copied())) {
             Some(at) => {
                 sets.remove(at);
                 earned += 1.0;
@@ -203,7 +215,7 @@ fn cause(task: &Task, named: &[Vec<Cause>], reading: Reading) -> (f64, String) {
         }
     }
     for own in partly {
-        if let Some(at) = sets.iter().position(|set| own.iter().any(|cause| set.contains(cause))) {
+        if let Some(at) = sets.iter().position(|set| own.iter().flatten().any(|cause| set.contains(cause))) {
             sets.remove(at);
             earned += 0.5;
         }
@@ -216,21 +228,26 @@ fn cause(task: &Task, named: &[Vec<Cause>], reading: Reading) -> (f64, String) {
     let told = named.len() + usize::from(reading != Reading::AsLabelled);
     let reading =
         if is_misread { format!("; the reading is `{}`", task.reading.word()) } else { String::new() };
-    let why = format!(
-        "The data allow {why}{reading}. One cause of several counts half, and a cause too many counts against it."
-    );
-    (earned / all.max(told) as f64, why)
+    let share = earned / all.max(told) as f64;
+    let rule = if share < 1.0 {
+        " One cause of several counts half, and a cause too many counts against it."
+    } else {
+        ""
+    };
+    (share, format!("The data allow {why}{reading}.{rule}"))
 }
 
 fn words(causes: &[Cause]) -> String {
     causes.iter().map(|cause| cause.word()).collect::<Vec<_>>().join(" or ")
 }
 
-fn number(given: Option<Number>, asked: Asked) -> (f64, String) {
+fn number(given: Result<Option<Number>, ItemError>, asked: Asked) -> (f64, String) {
     let Asked { truth_arcsec: truth, uncertainty_arcsec: possible } = asked;
-    let truth_is = format!("The true value is {truth:.1}″, and these data allow ± {possible:.1}″");
-    let Some(Number { value, uncertainty }) = given else {
-        return (0.0, format!("Not answered. {truth_is}."));
+    let truth_is = format!("The true value is {}, and these data allow ± {}", shown(truth), shown(possible));
+    let Number { value, uncertainty } = match given {
+        Ok(Some(number)) => number,
+        Ok(None) => return (0.0, format!("Not answered. {truth_is}.")),
+        Err(error) => return (0.0, format!("{error}. {truth_is}.")),
     };
     if !(value.is_finite() && uncertainty.is_finite() && uncertainty > 0.0) {
         return (0.0, format!("A value and a ± above zero are needed. {truth_is}."));
@@ -240,11 +257,33 @@ fn number(given: Option<Number>, asked: Asked) -> (f64, String) {
     let (share, verdict) = match uncertainty / possible {
         width if is_right && width <= TIGHT => (1.0, "is right"),
         width if is_right && width <= LOOSE => (0.5, "is right, with too wide a ±"),
-        _ if is_right => (0.0, "has a ± so wide that it says nothing"),
+        _ if is_right => (0.0, "is right, with a ± too wide for points"),
         _ if off <= NEAR * possible => (0.5, "is near, with too small a ±"),
         _ => (0.0, "is wrong by more than its ± allows"),
     };
-    (share, format!("{truth_is}. Your {value:.1}″ ± {uncertainty:.1}″ {verdict}."))
+    let slip = if share > 0.0 || is_right { "" } else { slip(value, asked) };
+    (share, format!("{truth_is}. Your {} ± {} {verdict}.{slip}", shown(value), shown(uncertainty)))
+}
+
+/// What somebody may have done whose number would else be near.
+fn slip(value: f64, asked: Asked) -> &'static str {
+    let is_near = |other: f64| (other - asked.truth_arcsec).abs() <= NEAR * asked.uncertainty_arcsec;
+    if is_near(-value) {
+        " Its sign is wrong."
+    } else if is_near(value / ARCSEC_RAD) {
+        " It looks like rad, and the sheet asks for ″."
+    } else if is_near(value * 3600.0) {
+        " It looks like degrees, and the sheet asks for ″."
+    } else {
+        ""
+    }
+}
+
+/// Arc seconds with two decimals, or in powers of ten where these say nothing.
+fn shown(arcsec: f64) -> String {
+    let is_plain = arcsec == 0.0 || (0.01..1e6).contains(&arcsec.abs());
+    let text = if is_plain { format!("{:.2}", arcsec + 0.0) } else { format!("{arcsec:.1e}") };
+    format!("{}″", text.replace('-', "−"))
 }
 
 fn unseen(task: &Task, model: Declared<'_>, reading: Reading) -> (f64, String) {
@@ -274,15 +313,21 @@ fn unseen(task: &Task, model: Declared<'_>, reading: Reading) -> (f64, String) {
     };
     let poses = task.unseen.len();
     let why = format!(
-        "At {poses} poses that you did not have, your declaration errs by {own:.1}″ (RMS). The noise allows {possible:.1}″. {verdict}."
+        "At {poses} poses that you did not have, your declaration errs by {} (RMS). The noise allows {}. {verdict}.",
+        shown(own),
+        shown(possible)
     );
     (share, why)
 }
 
-fn honesty(task: &Task, sentence: Option<i64>) -> (f64, String) {
+fn honesty(task: &Task, sentence: Result<Option<i64>, ItemError>) -> (f64, String) {
     let right = right(task);
+    let right_is = format!("Right is sentence {right}: “{}”", SENTENCES[right - 1]);
+    let sentence = match sentence {
+        Ok(sentence) => sentence,
+        Err(error) => return (0.0, format!("{error}. {right_is}")),
+    };
     let is_right = sentence.is_some_and(|number| usize::try_from(number) == Ok(right));
     let chosen = sentence.map_or_else(|| "no sentence".to_owned(), |number| format!("sentence {number}"));
-    let why = format!("You chose {chosen}. Right is sentence {right}. {}", SENTENCES[right - 1]);
-    (f64::from(u8::from(is_right)), why)
+    (f64::from(u8::from(is_right)), format!("You chose {chosen}. {right_is}"))
 }

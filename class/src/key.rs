@@ -162,10 +162,12 @@ fn secret(task: &Task) -> Vec<String> {
     for effect in &task.effects {
         let words: Vec<&str> = effect.possible.iter().map(|cause| cause.word()).collect();
         let additions = effect.cause.additions(&task.instrument);
-        let factors: Vec<String> =
-            additions.iter().map(|own| format!("{} of {}", own.factor(&task.instrument), own.body)).collect();
+        let factors: Vec<String> = additions
+            .iter()
+            .map(|own| format!("`{}` of `{}`", own.factor(&task.instrument), own.body))
+            .collect();
         out.push(format!(
-            "{}: {}, size {:.1}″",
+            "{}: {}. Its size is {:.1}″",
             words.join(" or "),
             factors.join(" and "),
             effect.size_arcsec
@@ -175,10 +177,13 @@ fn secret(task: &Task) -> Vec<String> {
         out.push(format!("{}: {}", task.reading.word(), task.reading.words(&task.instrument)));
     }
     for (name, number) in ["size", task.asked_error, "prediction"].into_iter().zip(task.numbers) {
-        out.push(format!("{name} {:.2}″ ± {:.2}″", number.truth_arcsec, number.uncertainty_arcsec));
+        out.push(format!(
+            "{name}: {:.2}″. The data allow ± {:.2}″",
+            number.truth_arcsec, number.uncertainty_arcsec
+        ));
     }
     let declared = task.declared.iter().map(|(name, value)| format!("{name} {:.1}″", value / ARCSEC_RAD));
-    out.push(format!("declared: {}", declared.collect::<Vec<_>>().join(", ")));
-    out.push(format!("sentence {}", sentence::right(task)));
+    out.push(format!("declared errors: {}", declared.collect::<Vec<_>>().join(", ")));
+    out.push(format!("right sentence: {}", sentence::right(task)));
     out
 }

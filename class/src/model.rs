@@ -1,7 +1,8 @@
 //! A declaration as something that computes: where an instrument points, and how that depends on its errors.
 
 use codegen::{Form, Interpreter, Program, build};
-use model_core::{Chain, ObservableId, ObservableKind, SymbolId, SymbolKind};
+use model_core::escape::clipped;
+use model_core::{Chain, Mistake, ObservableId, ObservableKind, SymbolId, SymbolKind};
 
 use crate::instrument::Instrument;
 use crate::readings::{Pose, columns};
@@ -28,7 +29,7 @@ pub enum ModelError {
     #[error("the declaration has more than {LONGEST} bytes")]
     TooLong,
     /// Mistakes of the language.
-    #[error("the declaration has a mistake: {0}")]
+    #[error("the declaration has a mistake in {0}")]
     Mistake(String),
     /// No direction of that name.
     #[error(
@@ -50,8 +51,10 @@ impl Model {
             return Err(ModelError::TooLong);
         }
         let chain = Chain::from_text(text).map_err(|mistakes| {
-            let rendered = mistakes.render("amended.chain", text);
-            ModelError::Mistake(rendered.lines().next().unwrap_or_default().to_owned())
+            let first = mistakes.iter().next();
+            let told =
+                |mistake: &Mistake| format!("line {}: {}", mistake.place.line, clipped(&mistake.message));
+            ModelError::Mistake(first.map_or_else(String::new, told))
         })?;
         let pointing = chain.find_observable(OBSERVABLE).ok_or(ModelError::NoPointing)?;
         let shown = chain.observable(pointing);

@@ -69,6 +69,9 @@ pub fn feedback(own: &Marked) -> String {
         let why = line(&grade.why);
         let _ = writeln!(text, "- **{}, {} of {}.** {why}", grade.item.word(), grade.points, grade.of);
     }
+    for key in &own.left_out {
+        let _ = writeln!(text, "- `answer.toml` asks for no {}. It was left out.", markdown(&line(key)));
+    }
     text.push_str("\n## The secret\n\n");
     for secret in &own.secret {
         let _ = writeln!(text, "- {secret}");

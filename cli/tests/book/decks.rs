@@ -17,17 +17,20 @@ const LEAST_NOTES: usize = 12;
 
 const STYLE: &str = "\
 html { color-scheme: light dark; scroll-snap-type: y mandatory; }
-body { margin: 0; font: clamp(24px, 2.6vw, 40px)/1.4 system-ui, sans-serif; }
-section { min-height: 100vh; box-sizing: border-box; padding: 7vh 8vw; scroll-snap-align: start; position: relative; break-after: page; }
-h1 { font-size: 1.5em; margin: 0 0 .6em; }
-blockquote { margin: .6em 0; font-size: 1.25em; }
-img { max-width: 100%; max-height: 32vh; background: #fff; }
+body { margin: 0; font: clamp(24px, 2.8vw, 48px)/1.4 system-ui, sans-serif; }
+section { min-height: 100vh; box-sizing: border-box; padding: 6vh 6vw; scroll-snap-align: start; position: relative; break-after: page; }
+section { display: flex; flex-direction: column; }
+h1 { font-size: 1.4em; margin: 0 0 .5em; }
+p, ul, pre { margin: 0 0 .6em; }
+blockquote { margin: 0 0 .5em; font-size: 1.2em; }
+section:not(:has(img)) blockquote { font-size: 1.5em; }
+img { flex: 1 1 0; min-height: 30vh; width: 100%; box-sizing: border-box; padding: 1vh 1vw; object-fit: contain; background: #fff; }
 pre { white-space: pre-wrap; overflow-wrap: anywhere; }
 aside { display: none; border-top: 2px solid; margin-top: 1em; padding-top: .4em; }
 .notes aside { display: block; }
 .number { position: absolute; right: 4vw; bottom: 2vh; margin: 0; }
 @page { size: 297mm 167mm; margin: 0; }
-@media print { html { color-scheme: light; } body { font-size: 20pt; } section { min-height: 0; height: 166mm; padding: 10mm 16mm; } aside { display: none !important; } }
+@media print { html { color-scheme: light; } body { font-size: 21pt; } section { min-height: 0; height: 166mm; padding: 9mm 16mm; } img { min-height: 0; } aside { display: none !important; } }
 ";
 
 const SCRIPT: &str = "\
@@ -41,6 +44,23 @@ addEventListener('keydown', (event) => {
   slides[Math.min(Math.max(now + step, 0), slides.length - 1)].scrollIntoView();
 });
 ";
+
+/// Points of the smallest letter, pixels of a screen of 1280 by 720.
+const SMALLEST_PX: f64 = 24.0;
+/// Width of a slide's contents there.
+const WIDTH_PX: f64 = 1280.0 * 0.86;
+
+/// Width and height of a picture and its smallest letters, in its own unit.
+fn measures(picture: &str) -> [f64; 3] {
+    let file = root().join("docs/src/teaching/decks").join(picture);
+    let svg = fs::read_to_string(&file).unwrap_or_else(|error| panic!("{picture}: {error}"));
+    let number = |text: &str| text.parse::<f64>().unwrap_or_else(|_| panic!("{picture}: {text}"));
+    let value = |rest: &str| rest.split('"').next().expect("a value").to_owned();
+    let view = value(svg.split("viewBox=\"0 0 ").nth(1).expect("a view box"));
+    let (width, height) = view.split_once(' ').expect("width and height");
+    let letters = svg.split("font-size=\"").skip(1).map(|rest| number(&value(rest)));
+    [number(width), number(height), letters.fold(f64::INFINITY, f64::min)]
+}
 
 /// One slide.
 struct Slide {
@@ -121,7 +141,17 @@ fn slide(source: &str) -> Slide {
             .and_then(|rest| rest.strip_suffix(')'))
             .and_then(|rest| rest.split_once("]("));
         let html = match (item, line.strip_prefix("> "), picture) {
-            (_, _, Some((alt, file))) => format!("<img src=\"{file}\" alt=\"{}\">", escaped(alt)),
+            (_, _, Some((alt, file))) => {
+                let [width, height, letters] = measures(file);
+                assert!(
+                    letters * WIDTH_PX / width >= SMALLEST_PX,
+                    "{title}: the letters of {file} are small"
+                );
+                format!(
+                    "<img src=\"{file}\" alt=\"{}\" data-measures=\"{width} {height} {letters}\">",
+                    escaped(alt)
+                )
+            }
             (Some(text), ..) => format!("<li>{}</li>", inline(text)),
             (_, Some(text), _) => format!("<blockquote>{}</blockquote>", inline(text)),
             _ if line.trim().is_empty() => continue,
@@ -174,9 +204,7 @@ fn the_pages_of_the_decks_are_what_their_sources_say() {
         }
         let page = rendered(&slides);
         let folder = root().join("docs/src/teaching/decks");
-        for picture in page.split("<img src=\"").skip(1).map(|rest| rest.split('"').next().expect("a name")) {
-            assert!(folder.join(picture).is_file(), "{name}: no picture {picture}");
-        }
+        assert!(page.contains("<img "), "{name}: no figure");
         let file = folder.join(format!("{name}.html"));
         if fs::read_to_string(&file).ok().as_deref() != Some(&page) {
             if std::env::var_os("UPDATE_BOOK").is_some() {
@@ -190,12 +218,18 @@ fn the_pages_of_the_decks_are_what_their_sources_say() {
     assert!(stale.is_empty(), "render them anew with UPDATE_BOOK=1: {stale:?}");
 }
 
-/// Says in the page which slides are higher than the screen, have something wider than the slide, or text below 18 pt.
+/// Says in the page which slides are higher than the screen, have something wider than the slide, or text below 18 pt, in a picture
+/// or beside it.
 const MEASURE: &str = "<script>{
   const isWide = (node) => node.clientWidth && node.scrollWidth > node.clientWidth + 1;
   const isSmall = (node) => node.getClientRects().length && parseFloat(getComputedStyle(node).fontSize) < 24;
-  const cut = (slide) => slide.offsetHeight > innerHeight + 1 || [...slide.querySelectorAll('pre, table, p, li')].some(isWide) ||
-    [...slide.querySelectorAll('h1, p, li, pre, code, td, th, blockquote')].some(isSmall);
+  const isFaint = (img) => {
+    const [width, height, letters] = img.dataset.measures.split(' ').map(Number), padding = parseFloat(getComputedStyle(img).paddingLeft);
+    return letters * Math.min((img.clientWidth - 2 * padding) / width, (img.clientHeight - 2 * padding) / height) < 24;
+  };
+  const cut = (slide) => slide.offsetHeight > 721 || [...slide.querySelectorAll('pre, table, p, li')].some(isWide) ||
+    [...slide.querySelectorAll('h1, p, li, pre, code, td, th, blockquote')].some(isSmall) ||
+    [...slide.querySelectorAll('img')].some(isFaint);
   document.body.dataset.cut = [...document.querySelectorAll('section')].filter(cut).map((slide) => slide.innerText.split('\\n')[0]).join('; ');
 }</script>";
 
@@ -208,7 +242,12 @@ fn a_browser_cuts_nothing_of_a_slide() {
         let base = format!("<head><base href=\"file://{}/\">", decks.display());
         folder.write(
             "deck.html",
-            page.replacen("<head>", &base, 1).replacen("</body>", &format!("{MEASURE}</body>"), 1),
+            // What a browser without a window shows is lower than the window that it is asked for.
+            page.replace("100vh", "720px").replacen("<head>", &base, 1).replacen(
+                "</body>",
+                &format!("{MEASURE}</body>"),
+                1,
+            ),
         );
         let Some((shown, console)) = browse_file(&folder.0, "deck.html") else { return };
         assert_eq!(console, "");

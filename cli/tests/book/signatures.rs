@@ -281,8 +281,8 @@ const READINGS: [Reading; 5] = [
     ("time", "row", [0.0, 200.0], &[0.0, 100.0, 200.0], false),
 ];
 const PANEL: [f64; 2] = [250.0, 112.0];
-const LEFT: f64 = 76.0;
-const GAP: f64 = 16.0;
+const LEFT: f64 = 92.0;
+const GAP: f64 = 28.0;
 
 /// What is left before the search: upwards and sideways, over each reading.
 fn picture(signature: &Signature, table: &str) -> String {
@@ -308,9 +308,9 @@ fn picture(signature: &Signature, table: &str) -> String {
         .find(|scale| *scale >= largest)
         .expect("arc seconds, few");
     let width = LEFT + readings.len() as f64 * (PANEL[0] + GAP);
-    let height = 10.0 + 2.0 * (PANEL[1] + GAP) + 26.0;
+    let height = 10.0 + 2.0 * (PANEL[1] + GAP) + 20.0;
     let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"13\" role=\"img\">\n\
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"16\" role=\"img\">\n\
          <title>Residuals over each joint: {}</title>\n<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n",
         signature.name
     );
@@ -351,9 +351,9 @@ fn picture(signature: &Signature, table: &str) -> String {
             "<text x=\"{0}\" y=\"{1}\" text-anchor=\"end\">+{scale}″</text><text x=\"{0}\" y=\"{2}\" text-anchor=\"end\">−{scale}″</text>\
              <text x=\"{0}\" y=\"{3}\" text-anchor=\"end\" font-weight=\"bold\">{direction}</text>",
             LEFT - 5.0,
-            top + 12.0,
+            top + 14.0,
             top + PANEL[1],
-            middle + 4.0
+            middle + 5.0
         );
     }
     let base = 10.0 + 2.0 * (PANEL[1] + GAP);
@@ -364,15 +364,15 @@ fn picture(signature: &Signature, table: &str) -> String {
             let x = left + (mark - low) / (high - low) * PANEL[0];
             let _ = write!(
                 out,
-                "<text x=\"{x:.0}\" y=\"{}\" text-anchor=\"middle\" fill=\"#555555\" font-size=\"11\">{mark}{unit}</text>",
-                base + 4.0
+                "<text x=\"{x:.0}\" y=\"{}\" text-anchor=\"middle\" fill=\"#555555\">{mark}{unit}</text>",
+                base - 7.0
             );
         }
         let _ = writeln!(
             out,
             "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" font-weight=\"bold\">{label}</text>",
             left + PANEL[0] / 2.0,
-            base + 20.0
+            base + 13.0
         );
     }
     out + "</svg>\n"

@@ -118,9 +118,36 @@ fn pages() -> Vec<(String, String)> {
     .collect()
 }
 
+/// What the notebooks say between their cells of code, in the order of the lessons.
+fn notebooks() -> Vec<(String, String)> {
+    let lessons = decks::sources().into_iter();
+    lessons
+        .map(|(name, _)| {
+            let path = root().join(format!("docs/src/course/notebooks/{name}.ipynb"));
+            let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let notebook: serde_json::Value =
+                serde_json::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let cells = notebook["cells"].as_array().expect("cells").iter();
+            let words = cells.filter(|cell| cell["cell_type"] == "markdown").map(|cell| {
+                let lines = cell["source"].as_array().expect("lines").iter();
+                lines.map(|line| line.as_str().expect("a line")).collect::<String>()
+            });
+            (format!("notebook {name}"), prose(&words.collect::<Vec<_>>().join("\n\n")))
+        })
+        .collect()
+}
+
+/// What the decks show and their speakers say, in the order of the lessons.
+fn told() -> Vec<(String, String)> {
+    let said = |(name, source): (String, String)| {
+        (format!("deck {name}"), prose(&source.replace("Notes: ", "\n").replace("\n---\n", "\n\n")))
+    };
+    decks::sources().into_iter().map(said).collect()
+}
+
 #[test]
 fn the_course_is_read_by_a_pupil_of_fifteen() {
-    for (name, prose) in pages() {
+    for (name, prose) in pages().into_iter().chain(notebooks()).chain(told()) {
         let sentences = sentences(&prose);
         let grade = grade(&sentences);
         assert!(grade <= GRADE, "{name}: grade {grade:.1}");
@@ -143,6 +170,7 @@ fn first_place(prose: &str, term: &str) -> Option<usize> {
 #[test]
 fn a_term_is_defined_where_it_first_stands() {
     let lessons: Vec<(String, String)> = pages().into_iter().take(12).collect();
+    let [notebooks, told] = [notebooks(), told()];
     let mut wrong = Vec::new();
     for (lesson, terms) in TERMS {
         for term in terms {
@@ -155,7 +183,7 @@ fn a_term_is_defined_where_it_first_stands() {
             if first_place(own, term).is_some_and(|at| at < bold) {
                 wrong.push(format!("lesson {lesson}: {term} stands before it is defined"));
             }
-            for (name, before) in &lessons[..lesson - 1] {
+            for (name, before) in [&lessons, &notebooks, &told].into_iter().flat_map(|all| &all[..lesson - 1]) {
                 if first_place(before, term).is_some() {
                     wrong.push(format!("{name}: {term} stands there, and is defined in lesson {lesson}"));
                 }

@@ -96,6 +96,14 @@ fn nothing_is_overwritten_and_bad_lists_are_refused() {
     let again = new(&folder, "1", "class", &[]);
     assert!(again.code == 2 && again.stderr.contains("is there already"), "{again}");
     assert_eq!(folder.read("class.key.toml"), sealed);
+    folder.write("names.csv", "name\nZoë Łukasik\n\nBo\nBo\n");
+    let twins = new(&folder, "1", "twins", &[]);
+    assert!(
+        twins.code == 0
+            && twins.stderr.contains("the list has \"Bo\" 2 times. Their folders begin with 002, 003."),
+        "{twins}"
+    );
+    assert!(folder.0.join("twins/001-zoe-lukasik/sheet.md").is_file());
     for (list, why) in [
         ("Ada\nBo\n", "has no column `name`"),
         ("name\n", "the list has no names"),

@@ -1,5 +1,6 @@
 //! `trueaxis class new`: a folder for each student, and the teacher's key beside them.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -61,6 +62,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
             "the seed has fewer than {LONG_ENOUGH} letters. A student who has this program can find it by trying. Take a phrase"
         ));
     }
+    warn_of_twins(&names);
     let (folders, sealed) = hand_out(&names, &arguments.seed, arguments.level)
         .map_err(|error| Failure::Input(format!("`{}`: {error}", arguments.students.display())))?;
     for own in &folders {
@@ -78,6 +80,21 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         key.display()
     ));
     Ok(Answer::Done)
+}
+
+/// Two of one name get two folders, and the folders do not show whose is which.
+fn warn_of_twins(names: &[String]) {
+    let mut rows: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    for (number, name) in (1..).zip(names) {
+        rows.entry(name.trim()).or_default().push(format!("{number:03}"));
+    }
+    for (name, own) in rows.into_iter().filter(|(_, own)| own.len() > 1) {
+        terminal::warn(format_args!(
+            "the list has {name:?} {} times. Their folders begin with {}. Tell each of them which is theirs",
+            own.len(),
+            own.join(", ")
+        ));
+    }
 }
 
 /// The key's place unless somebody says another: beside the folder, so that the folder can be handed out whole.

@@ -98,7 +98,7 @@ impl Certificate<'_> {
         let certificate = &*self;
         // Multiplied by every denominator.
         let without = |skipped: Option<usize>| {
-            let kept = others.iter().enumerate().filter(|(at, _)| Some(*at) != skipped);
+            let mut kept = others.iter().enumerate().filter(|(at, _)| Some(*at) != skipped);
             kept.try_fold(Poly::one(), |product, (_, (_, ratio))| product.checked_mul(&ratio.denominator))
         };
         let mut factors = vec![certificate.as_printed(&without(None)?)?];

@@ -80,10 +80,10 @@ pub(super) fn sides(text: &str, mut tokens: Vec<Token>) -> Result<Vec<Vec<Token>
     without_wrapping(&mut tokens);
     without_punctuation(&mut tokens);
     let sides = split(&tokens, |kind| *kind == Kind::Mark('='));
-    let is_layout = |token: &Token| matches!(token.kind, Kind::Row | Kind::Mark('&'));
+    let is_layout = |token: &&Token| matches!(token.kind, Kind::Row | Kind::Mark('&'));
     let trimmed = |side: Vec<Token>| {
-        let end = side.iter().rposition(|token| !is_layout(token)).map_or(0, |last| last + 1);
-        side[..end].iter().skip_while(|token| is_layout(token)).cloned().collect()
+        let end = side.iter().rposition(|token| !is_layout(&token)).map_or(0, |last| last + 1);
+        side[..end].iter().skip_while(is_layout).cloned().collect()
     };
     Ok(sides.into_iter().map(trimmed).collect())
 }

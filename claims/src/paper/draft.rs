@@ -57,6 +57,7 @@ pub fn draft(source: &str, kind: Kind, chain: &Chain, file: &str, chain_file: &s
         unread: Vec::new(),
         names: BTreeMap::new(),
         undefined: Vec::new(),
+        turns_vectors: false,
     };
     for (symbol, name) in prose::statements(source) {
         if symbol != "chain" {
@@ -78,7 +79,9 @@ pub fn draft(source: &str, kind: Kind, chain: &Chain, file: &str, chain_file: &s
         }
     }
     let mut text = format!("{MARK} {file}. What follows `guess` was not in the paper: look it over.\n");
-    let _ = writeln!(text, "chain = {}\n\n[symbols]\n{}", quoted(chain_file), drawn.table);
+    let rotations =
+        if drawn.turns_vectors { "rotations = \"vectors\"  # guess, by the claims that hold\n" } else { "" };
+    let _ = writeln!(text, "chain = {}\n{rotations}\n[symbols]\n{}", quoted(chain_file), drawn.table);
     text.push_str(&drawn.claims);
     Draft { text, claims: drawn.count, unread: drawn.unread, chain: chain_of(source) }
 }
@@ -94,15 +97,21 @@ struct Drawn<'a> {
     names: BTreeMap<String, (ObservableId, usize)>,
     /// Symbols whose definitions could not be read: the line, and why.
     undefined: Vec<(String, usize, String)>,
+    /// Whether a claim holds with `R_z(\psi)` as a turn of vectors, so that the paper means that by it.
+    turns_vectors: bool,
 }
 
 impl Drawn<'_> {
     /// A letter that stands for a declared name or an amount.
     fn letter(&mut self, symbol: &str, meaning: &str, why: &str) {
+        let written = key(symbol);
+        if self.table.lines().any(|line| line.starts_with(&format!("{written} = "))) {
+            return;
+        }
         let Ok(amount) = model_core::syntax::parse_amount(meaning) else { return };
         if crate::checker::lower(self.chain, &amount).is_ok() && self.symbols.define(symbol, &amount).is_ok()
         {
-            let _ = writeln!(self.table, "{} = {}  # {why}", key(symbol), quoted(meaning));
+            let _ = writeln!(self.table, "{written} = {}  # {why}", quoted(meaning));
         }
     }
 
@@ -126,11 +135,16 @@ impl Drawn<'_> {
         // `A = B = C`, and a condition behind a wide space.
         let sides = latex::equalities_of(&equation.text);
         if sides.len() > 1 {
-            let mut any = false;
+            let mut failed = Vec::new();
             for side in &sides {
-                any |= self.whole(checker, equation, side) || self.definition(equation, side).is_ok();
+                if !self.whole(checker, equation, side)
+                    && let Err(why) = self.definition(equation, side)
+                {
+                    failed.push((equation.line, side.clone(), why));
+                }
             }
-            if any {
+            if failed.len() < sides.len() {
+                self.unread.extend(failed);
                 return;
             }
         }
@@ -180,7 +194,10 @@ impl Drawn<'_> {
     }
 
     fn whole(&mut self, checker: &mut Checker<'_>, equation: &Equation, text: &str) -> bool {
-        let Some(guess) = guess::of_equation(checker, self.chain, &self.symbols, text) else { return false };
+        let Some(guess) = guess::of_equation(checker, self.chain, &self.symbols, text, self.turns_vectors)
+        else {
+            return false;
+        };
         self.claim(equation, text, &guess);
         // What is claimed may be used by name, too.
         let _ = self.definition(equation, text);
@@ -200,6 +217,7 @@ impl Drawn<'_> {
 
     fn claim(&mut self, equation: &Equation, text: &str, guess: &Guess) {
         self.count += 1;
+        self.turns_vectors |= guess.turned;
         if let Some((observable, only)) = guess.of {
             let rows = latex::rows_of(text);
             let names = rows.iter().map(|row| latex::definition_of(row).map(|(name, _)| name));

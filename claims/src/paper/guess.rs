@@ -20,6 +20,8 @@ pub(super) struct Guess {
     pub differs: [usize; 2],
     /// Of which error it is a claim: an observable, and one of its numbers or all.
     pub of: Option<(ObservableId, Option<usize>)>,
+    /// Whether `R_z(\psi)` was read as a turn of vectors.
+    pub turned: bool,
 }
 
 /// The statement about the chain that an equation makes: the first true one, or the one that most of its terms agree with.
@@ -28,6 +30,7 @@ pub(super) fn of_equation(
     chain: &Chain,
     symbols: &PrintedSymbols,
     text: &str,
+    turns_vectors: bool,
 ) -> Option<Guess> {
     let mut best: Option<Guess> = None;
     let found = ways(chain);
@@ -35,6 +38,10 @@ pub(super) fn of_equation(
         let Some(guess) = way.tried(checker, chain, symbols, text) else { continue };
         if guess.holds {
             return Some(guess);
+        }
+        // It could be a turn of axes.
+        if guess.turned && !turns_vectors {
+            continue;
         }
         let better = best
             .as_ref()
@@ -207,9 +214,6 @@ fn form(
     let differs = verdict.differences.len();
     // A product of errors is compared as well.
     let compared = terms.max(differs).max(1);
-    if claim.printed.turned && differs > 0 {
-        return None;
-    }
     // A term with a usual slip is still that term. A slip before a bracket is one in each term of it.
     let is_near = |difference: &&Difference| {
         !matches!(
@@ -224,10 +228,10 @@ fn form(
             )
         )
     };
-    let of = (!is_correction).then(|| (observable, only.map(model_core::Axis::index)));
+    let of = (!is_correction).then_some((observable, only.map(model_core::Axis::index)));
     let near = verdict.differences.iter().filter(is_near).count();
     let score = if compared < FEW { [differs, compared] } else { [3 * differs - 2 * near, 3 * compared] };
-    Some(Guess { keys, key, holds: differs == 0, differs: score, of })
+    Some(Guess { keys, key, holds: differs == 0, differs: score, of, turned: claim.printed.turned })
 }
 
 /// Of fewer terms a likeness says little.
@@ -253,8 +257,12 @@ fn entries_of(
         return None;
     };
     let differs = verdict.differences.len();
-    if is_turned && differs > 0 {
-        return None;
-    }
-    Some(Guess { keys, key, holds: differs == 0, differs: [differs, entries.max(differs).max(1)], of: None })
+    Some(Guess {
+        keys,
+        key,
+        holds: differs == 0,
+        differs: [differs, entries.max(differs).max(1)],
+        of: None,
+        turned: is_turned,
+    })
 }

@@ -9,12 +9,10 @@ use super::source::Equation;
 pub(super) fn statements(source: &str) -> Vec<(String, String)> {
     let mut found = Vec::new();
     for line in source.lines() {
-        let behind = |mark: &str| Some(line.rsplit_once(mark)?.1.trim_start());
-        let said = [behind("%"), behind("<!--")]
-            .into_iter()
-            .flatten()
-            .find_map(|inside| inside.strip_prefix("trueaxis:"));
-        let Some(said) = said else { continue };
+        let Some((before, said)) = line.split_once("trueaxis:") else { continue };
+        if !["%", "<!--"].iter().any(|mark| before.trim_end().ends_with(mark)) {
+            continue;
+        }
         let said = said.trim().trim_end_matches("-->").trim();
         if let Some((key, value)) = said.split_once('=') {
             let value = value.trim().trim_matches('"');

@@ -128,10 +128,9 @@ components = ['0', 'i + O(\|\mathbf{i}\|^2)']";
 
 #[test]
 fn a_table_of_symbols_takes_what_a_paper_prints() {
-    let symbols = "'\\mathbf{d}' = \"(da1, 0, -dd3)^T\"\n'\\mathbf{v}' = \"[da1, 0, -dd3]^T\"";
-    for letter in ["d", "v"] {
-        let claim = format!("keep = ['da1', 'dd3']\ncomponents = '''R_z(q_1) \\mathbf{{{letter}}}'''");
-        let said = of_arm(symbols, &claim);
-        assert_eq!(said, "holds", "{letter}");
+    for vector in ["(a_1, 0, h)^T", "[a1, 0, h]^T", "[a1 0 h]'"] {
+        let symbols = format!("'\\mathbf{{d}}' = \"{vector}\"");
+        let claim = r"equal = ['\mathbf{e}_z^T \mathbf{d} + \mathbf{e}_x^T \mathbf{d}', 'h + a_1']";
+        assert_eq!(of_arm(&symbols, claim), "holds", "{vector}");
     }
 }

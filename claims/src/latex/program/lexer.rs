@@ -37,6 +37,7 @@ pub(super) fn tokens(text: &str, is_declared: impl Fn(&str) -> bool) -> Result<V
         text,
         at: 0,
         open: Vec::new(),
+        lists: Vec::new(),
         tokens: Vec::new(),
         is_python: has(&PYTHON),
         is_c: has(&C) || (text.contains(';') && !has(&PYTHON) && !has(&["[", ".*", "./", ".^", "%"])),
@@ -53,6 +54,8 @@ struct Lexer<'a> {
     at: usize,
     /// The brackets that are open.
     open: Vec<char>,
+    /// Where those of lists are.
+    lists: Vec<usize>,
     tokens: Vec<Token>,
     is_python: bool,
     /// Whether whole numbers may be divided as C divides them.
@@ -126,10 +129,13 @@ impl Lexer<'_> {
                     self.refuse_neighbour(start)?;
                 }
                 self.open.push(next);
+                self.lists.extend((next == '[').then_some(start));
                 self.push(Kind::Mark(next), start);
             }
             ')' | ']' => {
-                self.open.pop();
+                if self.open.pop() == Some('[') {
+                    self.lists.pop();
+                }
                 self.push(Kind::Mark(next), start);
             }
             ',' if self.open.is_empty() && self.says_c && self.gives_name() => self.push(Kind::Row, start),
@@ -179,19 +185,18 @@ impl Lexer<'_> {
 
     /// Whether commas part the entries of the innermost open list.
     fn has_commas(&self) -> bool {
+        let Some(&open) = self.lists.last() else { return false };
         let mut depth = 0;
-        let written = self.tokens.iter().rev().take_while(|token| {
-            depth += match token.kind {
-                Kind::Mark(')' | ']') => 1,
-                Kind::Mark('(' | '[') => -1,
-                _ => 0,
-            };
-            depth >= 0
-        });
-        // A comma that is written takes one byte and is one.
-        let is_comma = |token: &Token| self.text.get(token.place.clone()) == Some(",");
-        let before = written.filter(|token| token.kind == Kind::Mark(',')).any(is_comma);
-        before || self.rest().split([']', '[', '(', ';', '\n']).next().is_some_and(|rest| rest.contains(','))
+        for c in self.text[open..].chars() {
+            match c {
+                '(' | '[' => depth += 1,
+                ')' | ']' if depth == 1 => return false,
+                ')' | ']' => depth -= 1,
+                ',' if depth == 1 => return true,
+                _ => {}
+            }
+        }
+        false
     }
 
     /// What Python writes behind an operand: `.T`, `.dot(b)`, `.flatten()`. The length is skipped where it is one.
@@ -232,6 +237,11 @@ impl Lexer<'_> {
     /// A whole power behind its sign.
     fn power(&mut self, start: usize) -> Result<(), Unreadable> {
         self.skip_while(|c| c == ' ');
+        if self.peek() == Some('T') && self.ends_operand() {
+            self.at += 1;
+            self.push(Kind::Mark('\''), start);
+            return Ok(());
+        }
         let bracketed = self.peek() == Some('(');
         self.at += usize::from(bracketed);
         let from = self.at;

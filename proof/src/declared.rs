@@ -1,8 +1,8 @@
 //! A declaration as written and what it means, side by side: a certificate states amounts as the user wrote them.
 
-use model_core::algebra::Poly;
+use model_core::algebra::{Poly, Rational};
 use model_core::chain::{Axis, BodyId, Chain, ObservableId, Role, TransformKind};
-use model_core::expr::Expr;
+use model_core::expr::{Expr, Node};
 use model_core::mistake::Mistakes;
 use model_core::ramp::Ramp;
 use model_core::symbol::{SymbolId, SymbolKind};
@@ -14,6 +14,8 @@ pub struct Declared {
     chain: Chain,
     bodies: Vec<Vec<WrittenFactor>>,
     observables: Vec<[Expr<()>; 3]>,
+    /// Joints, each with the error that stands for its small change.
+    changes: Vec<(SymbolId, SymbolId)>,
 }
 
 /// A factor as written.
@@ -62,7 +64,53 @@ impl Declared {
                 _ => None,
             })
             .collect();
-        Ok(Self { chain, bodies, observables })
+        Ok(Self { chain, bodies, observables, changes: Vec::new() })
+    }
+
+    /// The same declaration with a small change behind every motion of some joints: an error `change_of_q` for a joint `q`. What it
+    /// alone does to first order is the derivative by the joint.
+    #[must_use]
+    pub fn with_changes(mut self, joints: &[SymbolId]) -> Self {
+        for &joint in joints {
+            if self.change_of(joint).is_some() || self.chain.symbol(joint).kind != SymbolKind::Joint {
+                continue;
+            }
+            let Ok(change) = u16::try_from(self.chain.symbols.len()).map(SymbolId) else { continue };
+            let mut symbol = self.chain.symbol(joint).clone();
+            symbol.name = format!("change_of_{}", symbol.name);
+            while self.chain.find_symbol(&symbol.name).is_some() {
+                symbol.name.push('_');
+            }
+            symbol.kind = SymbolKind::Error;
+            symbol.latex = format!("\\mathrm{{d}}{}", symbol.latex);
+            for (body, written) in self.chain.bodies.iter_mut().zip(&mut self.bodies) {
+                let moved: Vec<(usize, Rational)> = (0..body.factors.len())
+                    .filter(|&at| body.factors[at].role == Role::Motion)
+                    .filter_map(|at| Some((at, body.factors[at].amount.derivative(joint).as_constant()?)))
+                    .filter(|(_, rate)| *rate != Rational::ZERO)
+                    .collect();
+                for (at, rate) in moved.into_iter().rev() {
+                    let amount = &Poly::constant(rate.clone()) * &Poly::symbol(change);
+                    let mut factor = body.factors[at].clone();
+                    (factor.role, factor.amount) = (Role::MotionError, amount.clone());
+                    let name = Expr { node: Node::Symbol(symbol.name.clone()), place: () };
+                    let number = Expr { node: Node::Number(rate), place: () };
+                    let product = Expr { node: Node::Mul(Box::new(number), Box::new(name)), place: () };
+                    let (role, kind, axis) = (factor.role, factor.kind, factor.axis);
+                    body.factors.insert(at + 1, factor);
+                    written.insert(at + 1, WrittenFactor { role, kind, axis, written: product, amount });
+                }
+            }
+            self.chain.symbols.push(symbol);
+            self.changes.push((joint, change));
+        }
+        self
+    }
+
+    /// The error that stands for a small change of a joint.
+    #[must_use]
+    pub fn change_of(&self, joint: SymbolId) -> Option<SymbolId> {
+        self.changes.iter().find(|(own, _)| *own == joint).map(|(_, change)| *change)
     }
 
     /// What the declaration means.

@@ -1,4 +1,4 @@
-//! What one error does to an observable: that it does nothing, or the same as another.
+//! What one error does to an observable: that it does nothing, the same as another, or the same as several together.
 
 use std::fmt::Write as _;
 
@@ -6,8 +6,8 @@ use super::section::{Question, Section};
 use super::{Certificate, Refusal, vector_to_order};
 use model_core::algebra::Poly;
 use model_core::chain::ObservableId;
-use model_core::identify::Ratio;
-use model_core::identify::{put_in, special};
+use model_core::expr::Expr;
+use model_core::identify::{Dependence, Ratio, put_in, special};
 use model_core::symbol::SymbolId;
 
 /// A theorem on what one error does, the others being zero, to first order.
@@ -19,6 +19,8 @@ pub(super) struct Influence {
     module: String,
     /// The symbols of its formula, in order.
     symbols: Vec<SymbolId>,
+    /// What the error does.
+    formula: [Expr<()>; 3],
 }
 
 impl Certificate<'_> {
@@ -41,8 +43,6 @@ impl Certificate<'_> {
         other: SymbolId,
         ratio: &Ratio,
     ) -> Result<(), Refusal> {
-        let first_influence = self.influence(observable, first)?;
-        let other_influence = self.influence(observable, other)?;
         let chain = self.declared.chain();
         let name = |symbol: SymbolId| chain.symbol(symbol).name.clone();
         let wanted = format!("{}_as_{}_on_{}", name(other), name(first), chain.observable(observable).name);
@@ -52,25 +52,63 @@ impl Certificate<'_> {
             name(first),
             chain.observable(observable).name
         );
+        self.related(observable, &wanted, &title, other, &[(first, ratio.clone())])
+    }
+
+    /// States and proves that what an error does to an observable is a sum of multiples of what others do, to first order.
+    ///
+    /// # Errors
+    /// [`Refusal`].
+    pub fn dependent(&mut self, observable: ObservableId, dependence: &Dependence) -> Result<(), Refusal> {
+        let chain = self.declared.chain();
+        let name = |symbol: SymbolId| chain.symbol(symbol).name.as_str();
+        let others: Vec<&str> = dependence.others.iter().map(|(other, _)| name(*other)).collect();
+        let shown = &chain.observable(observable).name;
+        let wanted = format!("{}_by_others_on_{shown}", name(dependence.error));
+        let title = format!(
+            "To {shown}, {} is a combination of {} that does not vary",
+            name(dependence.error),
+            others.join(", ")
+        );
+        self.related(observable, &wanted, &title, dependence.error, &dependence.others)
+    }
+
+    /// That an error is a sum of multiples of others, in one module.
+    fn related(
+        &mut self,
+        observable: ObservableId,
+        wanted: &str,
+        title: &str,
+        error: SymbolId,
+        others: &[(SymbolId, Ratio)],
+    ) -> Result<(), Refusal> {
+        let mut influences = Vec::with_capacity(others.len());
+        for (other, _) in others {
+            influences.push(self.influence(observable, *other)?);
+        }
+        let own = self.influence(observable, error)?;
         if self.theorems.iter().any(|theorem| *theorem == format!("{wanted}.holds")) {
             return Ok(());
         }
-        let module = self.names.give(&wanted);
-        let question = Question {
-            observable: Some(observable),
-            order: 1,
-            kept: vec![first, other],
-            put_in: special(chain),
-        };
+        let module = self.names.give(wanted);
+        let mut kept: Vec<SymbolId> = others.iter().map(|(other, _)| *other).chain([error]).collect();
+        kept.sort_unstable();
+        let question =
+            Question { observable: Some(observable), order: 1, kept, put_in: special(self.declared.chain()) };
         let certificate = &*self;
-        let formulas = [&ratio.numerator, &ratio.denominator];
-        let numbers = [
-            certificate.as_printed(formulas[0])?,
-            certificate.as_printed(formulas[1])?,
-            certificate.as_printed(&Poly::zero())?,
-        ];
-        let mut section = Section::new(certificate, &question, &numbers.each_ref())?;
-        section.open_plain(&module, &title, Some("size"))?;
+        // Multiplied by every denominator.
+        let without = |skipped: Option<usize>| {
+            let mut kept = others.iter().enumerate().filter(|(at, _)| Some(*at) != skipped);
+            kept.try_fold(Poly::one(), |product, (_, (_, ratio))| product.checked_mul(&ratio.denominator))
+        };
+        let mut factors = vec![certificate.as_printed(&without(None)?)?];
+        for (at, (_, ratio)) in others.iter().enumerate() {
+            factors.push(certificate.as_printed(&ratio.numerator.checked_mul(&without(Some(at))?)?)?);
+        }
+        let shown = influences.iter().chain([&own]).flat_map(|influence| &influence.formula);
+        let references: Vec<&Expr<()>> = factors.iter().chain(shown).collect();
+        let mut section = Section::new(certificate, &question, &references)?;
+        section.open_plain(&module, title, Some("size"))?;
         let influence = |influence: &Influence| {
             let arguments = influence.symbols.iter().map(|symbol| {
                 if *symbol == influence.error {
@@ -81,18 +119,24 @@ impl Certificate<'_> {
             });
             format!("{}.derived{}", influence.module, arguments.collect::<String>())
         };
-        let [above, below, _] = numbers.each_ref().map(|number| section.written(number));
-        let (a, b) = (influence(&first_influence), influence(&other_influence));
-        let statement = |axis: &str| format!("({below}) * {axis} ({b}) = ({above}) * {axis} ({a})");
+        let factors: Vec<String> = factors.iter().map(|factor| section.written(factor)).collect();
+        let statement = |axis: &str| {
+            let terms = factors[1..].iter().zip(&influences);
+            let terms: Vec<String> =
+                terms.map(|(factor, other)| format!("({factor}) * {axis} ({})", influence(other))).collect();
+            format!("({}) * {axis} ({}) = {}", factors[0], influence(&own), terms.join(" + "))
+        };
+        let mut modules: Vec<&str> =
+            influences.iter().chain([&own]).map(|influence| influence.module.as_str()).collect();
+        modules.dedup();
+        let unfolded: Vec<String> = modules.iter().map(|module| format!("{module}.derived")).collect();
         let _ = writeln!(
             section.out,
-            "Theorem holds :\n  {} /\\\n  {} /\\\n  {}.\nProof.\n  cbv [x y z {}.derived {}.derived]; angles; repeat split; \
-             settle.\nQed.",
+            "Theorem holds :\n  {} /\\\n  {} /\\\n  {}.\nProof.\n  cbv [x y z {}]; angles; repeat split; settle.\nQed.",
             statement("x"),
             statement("y"),
             statement("z"),
-            first_influence.module,
-            other_influence.module,
+            unfolded.join(" "),
         );
         let section = section.close_all(&module);
         self.finish_section(section, &module, "holds");
@@ -135,7 +179,7 @@ impl Certificate<'_> {
         section.prove("derived", "holds", "claim")?;
         let section = section.close_all(&module);
         self.finish_section(section, &module, "holds");
-        let influence = Influence { observable, error, module, symbols };
+        let influence = Influence { observable, error, module, symbols, formula };
         self.influences.push(influence.clone());
         Ok(influence)
     }

@@ -2,7 +2,7 @@
 //! decided, by the rational null space of the first-order columns.
 
 use super::{CheckError, Checker};
-use model_core::algebra::Poly;
+use model_core::algebra::{AlgebraError, Poly};
 use model_core::chain::{Chain, ObservableId};
 use model_core::identify::identify;
 use model_core::symbol::{SymbolId, SymbolKind};
@@ -81,6 +81,14 @@ impl Checker<'_> {
 
 /// How many combinations of some errors are determined, all others being zero.
 fn rank(chain: &Chain, observables: &[ObservableId], errors: &[SymbolId]) -> Result<usize, CheckError> {
+    Ok(identify(&only_of(chain, errors)?, observables)?.estimable.len())
+}
+
+/// The chain with all errors zero but these.
+///
+/// # Errors
+/// What the algebra refuses.
+pub fn only_of(chain: &Chain, errors: &[SymbolId]) -> Result<Chain, AlgebraError> {
     let mut restricted = chain.clone();
     for factor in restricted.factors_mut() {
         for symbol in factor.amount.symbols() {
@@ -89,5 +97,5 @@ fn rank(chain: &Chain, observables: &[ObservableId], errors: &[SymbolId]) -> Res
             }
         }
     }
-    Ok(identify(&restricted, observables)?.estimable.len())
+    Ok(restricted)
 }

@@ -89,6 +89,13 @@ pub(super) fn component(
     {
         return Ok(one(read));
     }
+    // `a·b` and `a − b` as they are pasted.
+    if plain.is_err()
+        && !text.is_ascii()
+        && let Ok(read) = as_latex()
+    {
+        return Ok(one(read));
+    }
     match plain {
         Ok(expression) => Ok(one((expression.map_place(&moved), Notes::default()))),
         Err(found) => Err(found

@@ -65,13 +65,44 @@ pub fn rows_of(text: &str) -> Vec<String> {
     for row in rows {
         let places = row.name.iter().chain(&row.formula).map(|token| token.place.clone());
         let Some(place) = places.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)) else { continue };
-        let Some(written) = text.get(place) else { continue };
-        found.push(written.trim().to_owned());
+        found.push(written(text, place).to_owned());
     }
     if found.is_empty() { whole() } else { found }
 }
 
-/// The name and the formula of `name = formula`, if the name is one symbol.
+/// `A = B = C` as `A = B` and `A = C`; an equation with one `=`, or none, as it is.
+#[must_use]
+pub fn equalities_of(text: &str) -> Vec<String> {
+    let pieces = left::tokens(text).and_then(|tokens| layout::sides(text, tokens)).unwrap_or_default();
+    let sides: Vec<&str> = pieces
+        .iter()
+        .filter_map(|side| Some(written(text, side.first()?.place.start..side.last()?.place.end)))
+        .collect();
+    match sides.as_slice() {
+        [name, first, rest @ ..] if !rest.is_empty() && sides.len() == pieces.len() => {
+            std::iter::once(first).chain(rest).map(|side| format!("{name} = {side}")).collect()
+        }
+        _ => vec![text.to_owned()],
+    }
+}
+
+/// The text of a place, and the braces that tokens leave out: those of typefaces, with the command before them.
+fn written(text: &str, place: std::ops::Range<usize>) -> &str {
+    let (mut start, mut end) = (place.start, place.end);
+    let count = |start: usize, end: usize, brace: char| text[start..end].matches(brace).count();
+    while count(start, end, '{') < count(start, end, '}') {
+        let Some(open) = text[..start].rfind('{') else { break };
+        let command = text[..open].trim_end_matches(|c: char| c.is_ascii_alphabetic());
+        start = if command.ends_with('\\') { command.len() - 1 } else { open };
+    }
+    while count(start, end, '{') > count(start, end, '}') {
+        let Some(close) = text[end..].find('}') else { break };
+        end += close + 1;
+    }
+    text[start..end].trim()
+}
+
+/// The name and the formula of `name = formula`, if the name is one symbol; what it depends on may stand behind it: `r(\theta)`.
 #[must_use]
 pub fn definition_of(text: &str) -> Option<(String, String)> {
     let tokens = left::tokens(text).ok()?;
@@ -80,7 +111,13 @@ pub fn definition_of(text: &str) -> Option<(String, String)> {
     let mut glyphs = Vec::new();
     let mut at = 0;
     while at < row.name.len() {
-        let read = glyph::read(&row.name[at..]).ok()??;
+        let Some(read) = glyph::read(&row.name[at..]).ok()? else {
+            let (_, length) = glyph::arguments(&row.name[at..])?;
+            if at + length == row.name.len() {
+                break;
+            }
+            return None;
+        };
         at += read.tokens;
         glyphs.push(read.glyph);
     }
@@ -88,5 +125,5 @@ pub fn definition_of(text: &str) -> Option<(String, String)> {
         return None;
     }
     let place = row.formula.first()?.place.start..row.end.start;
-    Some((glyph::normal_text(&glyphs), text.get(place)?.trim().to_owned()))
+    Some((glyph::normal_text(&glyphs), written(text, place).to_owned()))
 }

@@ -8,15 +8,29 @@ use super::token::{Kind, Token};
 use model_core::mistake::Mistake;
 
 /// Environments whose cells are entries of a matrix.
-pub(super) const MATRICES: [&str; 8] =
-    ["matrix", "pmatrix", "bmatrix", "Bmatrix", "vmatrix", "smallmatrix", "array", "cases"];
+pub(super) const MATRICES: [&str; 11] = [
+    "matrix",
+    "pmatrix",
+    "bmatrix",
+    "Bmatrix",
+    "vmatrix",
+    "smallmatrix",
+    "array",
+    "cases",
+    "dcases",
+    "rcases",
+    "drcases",
+];
 
 /// Environments that lay out formulas; a star may stand behind the name.
-const DISPLAYS: [&str; 11] = [
+const DISPLAYS: [&str; 14] = [
     "equation",
     "align",
     "aligned",
     "alignat",
+    "alignedat",
+    "IEEEeqnarray",
+    "subequations",
     "gather",
     "gathered",
     "eqnarray",
@@ -56,6 +70,22 @@ pub(super) fn rows(text: &str, mut tokens: Vec<Token>, list: bool) -> Result<Vec
         rows.pop();
     }
     joined(rows, list)
+}
+
+/// What stands between the signs of equality of a display, whichever lines they begin.
+pub(super) fn sides(text: &str, mut tokens: Vec<Token>) -> Result<Vec<Vec<Token>>, Unreadable> {
+    without_numbers(&mut tokens)?;
+    without_math(text, &mut tokens)?;
+    without_wide_spaces(&mut tokens)?;
+    without_wrapping(&mut tokens);
+    without_punctuation(&mut tokens);
+    let sides = split(&tokens, |kind| *kind == Kind::Mark('='));
+    let is_layout = |token: &&Token| matches!(token.kind, Kind::Row | Kind::Mark('&'));
+    let trimmed = |side: Vec<Token>| {
+        let end = side.iter().rposition(|token| !is_layout(&token)).map_or(0, |last| last + 1);
+        side[..end].iter().skip_while(is_layout).cloned().collect()
+    };
+    Ok(sides.into_iter().map(trimmed).collect())
 }
 
 /// `\quad (6)`, `\hfill (A.2)`: the number of an equation behind a wide space, or behind the end of mathematics.
@@ -163,19 +193,22 @@ fn is_display(name: &str) -> bool {
     DISPLAYS.contains(&name.trim_end_matches('*'))
 }
 
-/// `\begin{align} … \end{align}` around everything; an array of equations is one such, and so is the brace before it.
+/// `\begin{align} … \end{align}` around everything; an array of equations is one such, and so is the brace before or behind it.
 fn without_wrapping(tokens: &mut Vec<Token>) {
     loop {
         without_punctuation(tokens);
-        let open_brace = tokens.first().is_some_and(|token| token.kind == Kind::OpenBrace)
-            && tokens.iter().all(|token| token.kind != Kind::CloseBrace);
-        if open_brace && tokens.iter().any(|token| token.kind == Kind::Mark('=')) {
+        let holds_equations = tokens.iter().any(|token| token.kind == Kind::Mark('='));
+        let has = |kind: &Kind| tokens.iter().any(|token| token.kind == *kind);
+        let (Some(first), Some(last)) = (tokens.first(), tokens.last()) else { return };
+        if holds_equations && first.kind == Kind::OpenBrace && !has(&Kind::CloseBrace) {
             tokens.remove(0);
             continue;
         }
-        let (Some(first), Some(last)) = (tokens.first(), tokens.last()) else { return };
+        if holds_equations && last.kind == Kind::CloseBrace && !has(&Kind::OpenBrace) {
+            tokens.pop();
+            continue;
+        }
         let (Kind::Begin(name), Kind::End(end)) = (&first.kind, &last.kind) else { return };
-        let holds_equations = tokens.iter().any(|token| token.kind == Kind::Mark('='));
         let is_wrapping = is_display(name) || (MATRICES.contains(&name.as_str()) && holds_equations);
         if name != end || !is_wrapping || closing(tokens, 0) != Some(tokens.len() - 1) {
             return;

@@ -24,6 +24,11 @@ fn marked(tokens: Vec<Token>) -> Vec<Token> {
             at += 2;
             continue;
         }
+        // `{}+`: nothing, for the sake of the space before a sign.
+        if empty && !is_index && marked.last().is_none_or(|last| !takes_group(&last.kind)) {
+            at += 2;
+            continue;
+        }
         if token.kind == Kind::Mark('{')
             && kind(1)
                 .is_some_and(|kind| matches!(kind, Kind::Word(_) | Kind::Command(_)) && glyph::starts(kind))
@@ -34,7 +39,12 @@ fn marked(tokens: Vec<Token>) -> Vec<Token> {
             at += 3;
             continue;
         }
-        if token.kind == Kind::Mark('^') && marked.last().is_none_or(|last| begins_operand(&last.kind)) {
+        // `[\omega]_\times^2`: what stands in an index begins nothing.
+        let in_index = marked.len() > 1 && is_script(marked.get(marked.len() - 2).map(|token| &token.kind));
+        if token.kind == Kind::Mark('^')
+            && !in_index
+            && marked.last().is_none_or(|last| begins_operand(&last.kind))
+        {
             marked.push(Token { kind: Kind::Left, place: token.place.start..token.place.start, bold: false });
         }
         marked.push(token.clone());

@@ -57,6 +57,8 @@ pub(super) struct Entry {
     /// As it was given, for printing.
     pub printed: String,
     pub meaning: Meaning,
+    /// Whether the declaration prints it so, and no table of symbols.
+    pub is_declared: bool,
 }
 
 impl Entry {
@@ -106,7 +108,7 @@ impl PrintedSymbols {
                 }
                 _ => Meaning::Amount(name(&symbol.name)),
             };
-            table.insert(key, Entry { printed: symbol.latex.clone(), meaning });
+            table.insert(key, Entry { printed: symbol.latex.clone(), meaning, is_declared: true });
         }
         table.joints = joints_of_errors(chain);
         table
@@ -154,7 +156,7 @@ impl PrintedSymbols {
 
     fn define_as(&mut self, printed: &str, meaning: Meaning) -> Result<(), Unreadable> {
         let key = symbol_key(printed)?;
-        self.insert(key, Entry { printed: printed.trim().to_owned(), meaning });
+        self.insert(key, Entry { printed: printed.trim().to_owned(), meaning, is_declared: false });
         Ok(())
     }
 
@@ -181,6 +183,11 @@ impl PrintedSymbols {
             [only] => self.entries.get(only),
             _ => None,
         })
+    }
+
+    /// Whether a table of symbols gives a declared name a printed form.
+    pub(super) fn renames(&self, name: &str) -> bool {
+        self.entries.values().any(|entry| !entry.is_declared && entry.name() == Some(name))
     }
 
     /// The entry that a text is the printed form of, letter by letter: a name as programs have it.

@@ -244,6 +244,7 @@ impl Lexer<'_> {
             '\\' => return self.row(start),
             '{' => self.push(Kind::OpenBrace, start),
             '}' => self.push(Kind::CloseBrace, start),
+            '|' => self.push(Kind::Mark('‖'), start),
             '[' | ']' | '(' | ')' => self.push(Kind::Math, start),
             ',' | ';' | ':' | '!' | '>' | '/' => {}
             c if c.is_whitespace() => {}
@@ -385,8 +386,22 @@ impl Lexer<'_> {
         if begins && name == "array" && self.braced().is_none() {
             return Err(Mistake::new(start..self.at, "`array` without its columns").with_help("`{c}`"));
         }
+        // How columns are laid out: `{rCl}`, `{2}`, and `[r]` of a matrix with a star.
+        let bare = name.trim_end_matches('*');
+        if begins && matches!(bare, "IEEEeqnarray" | "alignat" | "alignedat") {
+            self.braced();
+        }
+        let is_starred = bare.ends_with("matrix") && bare != name;
+        if begins && is_starred && self.rest().starts_with('[') {
+            self.at += self.rest().find(']').map_or(0, |close| close + 1);
+        }
+        let name = if is_starred { bare.to_owned() } else { name };
         self.push(if begins { Kind::Begin(name) } else { Kind::End(name) }, start);
         Ok(())
+    }
+
+    fn rest(&self) -> &str {
+        &self.text[self.at..]
     }
 
     fn braced(&mut self) -> Option<String> {

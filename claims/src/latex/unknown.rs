@@ -61,6 +61,17 @@ pub(super) fn symbol(
         .and_then(|wanted| names::nearest(&wanted, known.iter().map(|(spelling, _)| spelling.as_str())));
     match known.iter().find(|(spelling, _)| Some(spelling.as_str()) == nearest) {
         Some((_, printed)) => mistake.with_help(format!("did you mean `{printed}`?")),
-        None => mistake.with_help(format!("name it under [symbols]: '{shown}' = \"…\"")),
+        None => {
+            mistake.with_help(format!("name it under [symbols]: '{shown}' = \"{}\"", likely(&first.glyph)))
+        }
+    }
+}
+
+/// What a bold letter is likely to be, as the table of symbols has it: a matrix, a vector.
+fn likely(glyph: &Glyph) -> &'static str {
+    match glyph.base.trim_start_matches('\\').chars().next() {
+        Some(letter) if glyph.bold && letter.is_uppercase() => "[[…, …, …], […, …, …], […, …, …]]",
+        Some(_) if glyph.bold => "[…, …, …]",
+        _ => "…",
     }
 }

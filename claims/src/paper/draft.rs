@@ -1,11 +1,13 @@
 //! A claims file drawn up from a paper, its guesses marked, and what could not be read.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use model_core::Chain;
 use model_core::expr::Expr;
+use model_core::{Chain, ObservableId};
 use toml::Value;
 
+use super::guess::Guess;
 use super::macros::Macros;
 use super::source::{Equation, Kind, equations};
 use super::{guess, prose};
@@ -53,10 +55,13 @@ pub fn draft(source: &str, kind: Kind, chain: &Chain, file: &str, chain_file: &s
         claims: String::new(),
         count: 0,
         unread: Vec::new(),
+        names: BTreeMap::new(),
+        undefined: Vec::new(),
+        turns_vectors: false,
     };
     for (symbol, name) in prose::statements(source) {
         if symbol != "chain" {
-            drawn.letter(&symbol, &name, "stated");
+            drawn.letter(&macros.expanded(&symbol), &name, "stated");
         }
     }
     let found: Vec<Equation> = equations(source, kind)
@@ -74,7 +79,9 @@ pub fn draft(source: &str, kind: Kind, chain: &Chain, file: &str, chain_file: &s
         }
     }
     let mut text = format!("{MARK} {file}. What follows `guess` was not in the paper: look it over.\n");
-    let _ = writeln!(text, "chain = {}\n\n[symbols]\n{}", quoted(chain_file), drawn.table);
+    let rotations =
+        if drawn.turns_vectors { "rotations = \"vectors\"  # guess, by the claims that hold\n" } else { "" };
+    let _ = writeln!(text, "chain = {}\n{rotations}\n[symbols]\n{}", quoted(chain_file), drawn.table);
     text.push_str(&drawn.claims);
     Draft { text, claims: drawn.count, unread: drawn.unread, chain: chain_of(source) }
 }
@@ -86,15 +93,25 @@ struct Drawn<'a> {
     claims: String,
     count: usize,
     unread: Vec<(usize, String, String)>,
+    /// What names on the left of `=` stood for in claims so far.
+    names: BTreeMap<String, (ObservableId, usize)>,
+    /// Symbols whose definitions could not be read: the line, and why.
+    undefined: Vec<(String, usize, String)>,
+    /// Whether a claim holds with `R_z(\psi)` as a turn of vectors, so that the paper means that by it.
+    turns_vectors: bool,
 }
 
 impl Drawn<'_> {
     /// A letter that stands for a declared name or an amount.
     fn letter(&mut self, symbol: &str, meaning: &str, why: &str) {
+        let written = key(symbol);
+        if self.table.lines().any(|line| line.starts_with(&format!("{written} = "))) {
+            return;
+        }
         let Ok(amount) = model_core::syntax::parse_amount(meaning) else { return };
         if crate::checker::lower(self.chain, &amount).is_ok() && self.symbols.define(symbol, &amount).is_ok()
         {
-            let _ = writeln!(self.table, "{} = {}  # {why}", key(symbol), quoted(meaning));
+            let _ = writeln!(self.table, "{written} = {}  # {why}", quoted(meaning));
         }
     }
 
@@ -115,6 +132,27 @@ impl Drawn<'_> {
         if self.whole(checker, equation, &equation.text) {
             return;
         }
+        // `A = B = C`, and a condition behind a wide space.
+        let sides = latex::equalities_of(&equation.text);
+        if sides.len() > 1 {
+            let mut failed = Vec::new();
+            for side in &sides {
+                if !self.whole(checker, equation, side)
+                    && let Err(why) = self.definition(equation, side)
+                {
+                    failed.push((equation.line, side.clone(), why));
+                }
+            }
+            if failed.len() < sides.len() {
+                self.unread.extend(failed);
+                return;
+            }
+        }
+        if let Some(text) = without_condition(&equation.text)
+            && self.whole(checker, equation, &text)
+        {
+            return;
+        }
         let rows = latex::rows_of(&equation.text);
         let mut read = false;
         let mut reason = None;
@@ -123,9 +161,18 @@ impl Drawn<'_> {
                 read = true;
                 continue;
             }
+            if equation.is_display && self.named_before(checker, equation, row) {
+                read = true;
+                continue;
+            }
             match self.definition(equation, row) {
                 Ok(()) => read = true,
-                Err(why) => reason = reason.or(Some(why)),
+                Err(why) => {
+                    if let Some((name, _)) = latex::definition_of(row) {
+                        self.undefined.push((name, equation.line, why.clone()));
+                    }
+                    reason = reason.or(Some(why));
+                }
             }
         }
         if let Some(reason) = reason
@@ -134,36 +181,74 @@ impl Drawn<'_> {
             // An aside such as `$n = 5$` is no statement about the chain.
             if equation.is_display || reason.starts_with("differs") {
                 let shown = equation.text.split_whitespace().collect::<Vec<_>>().join(" ");
+                let missing = |(name, line, _): &&(String, usize, String)| {
+                    *line != equation.line && reason.contains(&format!("unknown symbol `{name}`"))
+                };
+                let reason = match self.undefined.iter().find(missing) {
+                    Some((_, line, why)) => format!("{reason}; line {line} defines it, where {why}"),
+                    None => reason,
+                };
                 self.unread.push((equation.line, shown, reason));
             }
         }
     }
 
     fn whole(&mut self, checker: &mut Checker<'_>, equation: &Equation, text: &str) -> bool {
-        let Some(guess) = guess::of_equation(checker, self.chain, &self.symbols, text) else { return false };
-        self.count += 1;
-        let _ = writeln!(self.claims, "[[claim]]\nname = \"line {}, {}\"", equation.line, self.count);
-        for (key, value) in &guess.keys {
-            let value = if matches!(*key, "keep" | "order") { value.clone() } else { quoted(value) };
-            let _ = writeln!(self.claims, "{key} = {value}  # guess");
-        }
-        let _ = writeln!(self.claims, "{} = {}  # as {} is a guess\n", guess.key, quoted(text), guess.key);
+        let Some(guess) = guess::of_equation(checker, self.chain, &self.symbols, text, self.turns_vectors)
+        else {
+            return false;
+        };
+        self.claim(equation, text, &guess);
         // What is claimed may be used by name, too.
         let _ = self.definition(equation, text);
         true
     }
 
+    /// An equation of one number whose name stood for a number of an error before.
+    fn named_before(&mut self, checker: &mut Checker<'_>, equation: &Equation, row: &str) -> bool {
+        let Some((name, _)) = latex::definition_of(row) else { return false };
+        let Some(&of) = self.names.get(&name) else { return false };
+        let Some(guess) = guess::of_component(checker, self.chain, &self.symbols, row, of) else {
+            return false;
+        };
+        self.claim(equation, row, &guess);
+        true
+    }
+
+    fn claim(&mut self, equation: &Equation, text: &str, guess: &Guess) {
+        self.count += 1;
+        self.turns_vectors |= guess.turned;
+        if let Some((observable, only)) = guess.of {
+            let rows = latex::rows_of(text);
+            let names = rows.iter().map(|row| latex::definition_of(row).map(|(name, _)| name));
+            for (at, name) in names.enumerate() {
+                let at = only.unwrap_or(at);
+                if let Some(name) = name
+                    && (only.is_some() || rows.len() == self.chain.observable(observable).shown.len())
+                {
+                    self.names.entry(name).or_insert((observable, at));
+                }
+            }
+        }
+        let _ = writeln!(self.claims, "[[claim]]\nname = \"line {}, {}\"", equation.line, self.count);
+        for (key, value) in &guess.keys {
+            let value = if matches!(*key, "keep" | "order" | "by") { value.clone() } else { quoted(value) };
+            let _ = writeln!(self.claims, "{key} = {value}  # guess");
+        }
+        let _ = writeln!(self.claims, "{} = {}  # as {} is a guess\n", guess.key, quoted(text), guess.key);
+    }
+
     /// `\mathbf{r} = …`: a symbol that the paper defines.
     fn definition(&mut self, equation: &Equation, row: &str) -> Result<(), String> {
-        let (name, formula) =
-            latex::definition_of(row).ok_or_else(|| "no equation with one `=`".to_owned())?;
+        let Some((name, formula)) = latex::definition_of(row) else {
+            let read = latex::read_matrix(row, &self.symbols.reading(&[row]));
+            return Err(read.map_or_else(said, |_| "agrees with no statement about the chain".to_owned()));
+        };
         if self.symbols.knows_symbol(&name) {
             return Err("agrees with no statement about the chain".to_owned());
         }
         let symbols = self.symbols.reading(&[&formula]);
-        let matrix = latex::read_matrix(&formula, &symbols).map_err(|mistake| {
-            mistake.help.map_or(mistake.message.clone(), |help| format!("{}; {help}", mistake.message))
-        })?;
+        let matrix = latex::read_matrix(&formula, &symbols).map_err(said)?;
         let known = |entry: &Expr<std::ops::Range<usize>>| {
             entry.names().iter().all(|(name, _)| self.chain.find_symbol(name).is_some())
         };
@@ -184,6 +269,19 @@ impl Drawn<'_> {
         );
         Ok(())
     }
+}
+
+/// A mistake and what to write instead.
+fn said(mistake: latex::Unreadable) -> String {
+    mistake.help.map_or(mistake.message.clone(), |help| format!("{}; {help}", mistake.message))
+}
+
+/// An equation without what stands behind its last wide space: `\qquad k = 1, 2`.
+fn without_condition(text: &str) -> Option<String> {
+    let at = text.rfind("\\qquad").or_else(|| text.rfind("\\quad"))?;
+    let end = text[at..].find("\\end{").map_or(text.len(), |end| at + end);
+    let is_condition = text[..at].contains('=') && !text[at..end].contains("\\\\");
+    is_condition.then(|| format!("{}{}", &text[..at], &text[end..]))
 }
 
 /// A text as a key of TOML.

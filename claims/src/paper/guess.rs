@@ -4,7 +4,7 @@ use model_core::chain::BodyId;
 use model_core::{Chain, ObservableId, SymbolId, SymbolKind};
 
 use crate::checker::entries::{Entries, EntriesOf};
-use crate::checker::{Checker, Claim, ClosedForm, Order, PrintedVector, Verdict};
+use crate::checker::{Checker, Claim, ClosedForm, Difference, Order, PrintedVector, TermSlip, Verdict};
 use crate::latex::{self, PrintedSymbols};
 
 /// A way to read an equation as a claim: the keys of a claims file that say so.
@@ -18,6 +18,10 @@ pub(super) struct Guess {
     pub holds: bool,
     /// Terms that differ, of all that are compared.
     pub differs: [usize; 2],
+    /// Of which error it is a claim: an observable, and one of its numbers or all.
+    pub of: Option<(ObservableId, Option<usize>)>,
+    /// Whether `R_z(\psi)` was read as a turn of vectors.
+    pub turned: bool,
 }
 
 /// The statement about the chain that an equation makes: the first true one, or the one that most of its terms agree with.
@@ -26,6 +30,7 @@ pub(super) fn of_equation(
     chain: &Chain,
     symbols: &PrintedSymbols,
     text: &str,
+    turns_vectors: bool,
 ) -> Option<Guess> {
     let mut best: Option<Guess> = None;
     let found = ways(chain);
@@ -33,6 +38,10 @@ pub(super) fn of_equation(
         let Some(guess) = way.tried(checker, chain, symbols, text) else { continue };
         if guess.holds {
             return Some(guess);
+        }
+        // It could be a turn of axes.
+        if guess.turned && !turns_vectors {
+            continue;
         }
         let better = best
             .as_ref()
@@ -55,6 +64,19 @@ enum Way {
     Shown { observable: ObservableId, order: u32 },
     /// How a body stands.
     Frame { body: BodyId, order: u32 },
+    /// The derivatives of what an observable shows by symbols of a kind.
+    Jacobian { observable: ObservableId, by: SymbolKind },
+}
+
+/// One number of an observable's error, however little of it agrees: what a name stands for is known already.
+pub(super) fn of_component(
+    checker: &mut Checker<'_>,
+    chain: &Chain,
+    symbols: &PrintedSymbols,
+    text: &str,
+    (observable, at): (ObservableId, usize),
+) -> Option<Guess> {
+    Way::One { observable, at }.tried(checker, chain, symbols, text)
 }
 
 fn ways(chain: &Chain) -> Vec<Way> {
@@ -69,6 +91,9 @@ fn ways(chain: &Chain) -> Vec<Way> {
     for (observable, shown) in observables() {
         found.extend((0..shown.shown.len()).map(|at| Way::One { observable, at }));
         found.push(Way::Form { observable, is_correction: true });
+        if shown.has_components_only() && shown.is_vector() {
+            found.extend([SymbolKind::Joint, SymbolKind::Error].map(|by| Way::Jacobian { observable, by }));
+        }
     }
     for body in (0u16..).zip(&chain.bodies).map(|(index, _)| BodyId(index)) {
         found.extend([0, 1].map(|order| Way::Frame { body, order }));
@@ -127,6 +152,21 @@ impl Way {
                 let keys = vec![("body", chain.body(body).name.clone()), ("order", order.to_string())];
                 entries_of(checker, chain, (keys, "frame"), of, order, &all, matrix)
             }
+            Self::Jacobian { observable, by } => {
+                let symbols = symbols.reading(&[text]);
+                let matrix = latex::read_matrix(text, &symbols).ok()?;
+                let shown = chain.observable(observable);
+                let by: Vec<SymbolId> = chain.symbols_of(by).collect();
+                if by.len() < 2 || [matrix.rows, matrix.columns] != [shown.shown.len(), by.len()] {
+                    return None;
+                }
+                let names: Vec<String> =
+                    by.iter().map(|&id| format!("\"{}\"", chain.symbol(id).name)).collect();
+                let keys =
+                    vec![("observable", shown.name.clone()), ("by", format!("[{}]", names.join(", ")))];
+                let of = EntriesOf::Jacobian { observables: vec![observable], by };
+                entries_of(checker, chain, (keys, "jacobian"), of, 1, &all, matrix)
+            }
         }
     }
 }
@@ -174,11 +214,28 @@ fn form(
     let differs = verdict.differences.len();
     // A product of errors is compared as well.
     let compared = terms.max(differs).max(1);
-    if claim.printed.turned && differs > 0 {
-        return None;
-    }
-    Some(Guess { keys, key, holds: differs == 0, differs: [differs, compared] })
+    // A term with a usual slip is still that term. A slip before a bracket is one in each term of it.
+    let is_near = |difference: &&Difference| {
+        !matches!(
+            difference.slip,
+            None | Some(
+                TermSlip::Missing
+                    | TermSlip::Superfluous
+                    | TermSlip::Neglected
+                    | TermSlip::BeyondOrder
+                    | TermSlip::BelongsTo(_)
+                    | TermSlip::StandsIn(_)
+            )
+        )
+    };
+    let of = (!is_correction).then_some((observable, only.map(model_core::Axis::index)));
+    let near = verdict.differences.iter().filter(is_near).count();
+    let score = if compared < FEW { [differs, compared] } else { [3 * differs - 2 * near, 3 * compared] };
+    Some(Guess { keys, key, holds: differs == 0, differs: score, of, turned: claim.printed.turned })
 }
+
+/// Of fewer terms a likeness says little.
+const FEW: usize = 4;
 
 fn entries_of(
     checker: &mut Checker<'_>,
@@ -190,6 +247,9 @@ fn entries_of(
     matrix: latex::PrintedMatrix,
 ) -> Option<Guess> {
     let printed = Entries::read(chain, matrix, Order::UpTo(order)).ok()?;
+    // Zeros agree with anything.
+    let said = |printed: &&PrintedVector| !printed.components[0].value.above.is_zero();
+    let entries = printed.iter().filter(said).count();
     let is_turned = printed.iter().any(|printed| printed.turned);
     let labels = (1..=printed.len()).map(|at| at.to_string()).collect();
     let claim = Entries { of, order: Order::UpTo(order), kept: kept.to_vec(), labels, printed };
@@ -197,8 +257,12 @@ fn entries_of(
         return None;
     };
     let differs = verdict.differences.len();
-    if is_turned && differs > 0 {
-        return None;
-    }
-    Some(Guess { keys, key, holds: differs == 0, differs: [differs, verdict.entries] })
+    Some(Guess {
+        keys,
+        key,
+        holds: differs == 0,
+        differs: [differs, entries.max(differs).max(1)],
+        of: None,
+        turned: is_turned,
+    })
 }

@@ -9,11 +9,10 @@ use super::source::Equation;
 pub(super) fn statements(source: &str) -> Vec<(String, String)> {
     let mut found = Vec::new();
     for line in source.lines() {
-        let line = line.trim();
-        let inside = line.strip_prefix('%').or_else(|| line.strip_prefix("<!--"));
-        let Some(said) = inside.map(str::trim).and_then(|inside| inside.strip_prefix("trueaxis:")) else {
+        let Some((before, said)) = line.split_once("trueaxis:") else { continue };
+        if !["%", "<!--"].iter().any(|mark| before.trim_end().ends_with(mark)) {
             continue;
-        };
+        }
         let said = said.trim().trim_end_matches("-->").trim();
         if let Some((key, value)) = said.split_once('=') {
             let value = value.trim().trim_matches('"');

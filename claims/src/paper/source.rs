@@ -80,6 +80,9 @@ fn opening(rest: &str, kind: Kind) -> Option<(usize, String, bool, bool)> {
     if kind == Kind::Markdown && rest.starts_with("```math") {
         return Some((7, "```".to_owned(), true, true));
     }
+    if kind == Kind::Markdown && rest.starts_with(r"\\[") {
+        return Some((3, r"\\]".to_owned(), true, true));
+    }
     for (open, close, display) in
         [("$$", "$$", true), (r"\[", r"\]", true), (r"\(", r"\)", false), ("$", "$", false)]
     {

@@ -6,3 +6,4 @@ mod kinds;
 mod notation;
 mod support;
 mod unread;
+mod unseen;

@@ -28,8 +28,9 @@ fn expected(source: &str, word: &str) -> usize {
 fn drawn_up(path: &Path) -> (String, Draft, Vec<(String, String)>) {
     let source = fs::read_to_string(path).unwrap();
     let named = Draft::chain_named(&source).expect("each source names its chain");
-    let gallery = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join("examples/gallery");
-    let text = fs::read_to_string(gallery.join(&named)).unwrap();
+    let own = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folders = [own.join("tests/papers/chains"), own.parent().unwrap().join("examples/gallery")];
+    let text = folders.iter().find_map(|folder| fs::read_to_string(folder.join(&named)).ok()).unwrap();
     let chain = Chain::symbolic_from_text(&text).unwrap();
     let kind = if path.extension().is_some_and(|ending| ending == "md") { Kind::Markdown } else { Kind::Tex };
     let drawn = draft(&source, kind, &chain, "paper", &named);
@@ -40,7 +41,7 @@ fn drawn_up(path: &Path) -> (String, Draft, Vec<(String, String)>) {
 fn compared(folder: &str) {
     let mut wrong = Vec::new();
     let paths = sources(folder);
-    assert_eq!(paths.len(), 10);
+    assert!(paths.len() >= 10);
     for path in paths {
         let (source, drawn, verdicts) = drawn_up(&path);
         for word in ["holds", "differs"] {

@@ -2,6 +2,7 @@
 
 mod alterations;
 mod coq;
+mod jacobians;
 mod outside;
 mod readings;
 mod statements;

@@ -57,15 +57,17 @@ impl Reader<'_> {
     pub(super) fn jacobian(&mut self, claim: &ClaimTable) -> Option<Claim> {
         let text = claim.jacobian.as_ref()?;
         let observables = self.observables(claim)?;
+        let by = self.variables(claim)?;
+        let by_errors = by.iter().all(|&id| self.chain.symbol(id).kind == SymbolKind::Error);
         for &observable in &observables {
             let shown = self.chain.observable(observable);
-            if !shown.has_components_only() && !shown.is_orientation() {
-                self.mistake(claim.name.span(), "the derivatives of angles are claimed as closed forms")
-                    .help = Some("name an observable that shows components, or an orientation".to_owned());
+            if !by_errors && !shown.has_components_only() && !shown.is_orientation() {
+                self.mistake(claim.name.span(), "the derivatives of an angle are known by errors only")
+                    .help =
+                    Some("give errors as `by`, or name an observable that shows components".to_owned());
                 return None;
             }
         }
-        let by = self.variables(claim)?;
         let matrix = self.one_matrix(text)?;
         let rows: usize = observables.iter().map(|&id| self.chain.observable(id).shown.len()).sum();
         if [matrix.rows, matrix.columns] != [rows, by.len()] {

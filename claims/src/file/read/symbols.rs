@@ -46,7 +46,13 @@ impl Reader<'_> {
     }
 
     fn amount(&mut self, symbol: &Spanned<String>, text: &str, whole: Place, printed: &mut Chain) {
-        let amount = match syntax::parse_amount(text) {
+        let parsed = syntax::parse_amount(text);
+        let is_amount = parsed.as_ref().is_ok_and(|amount| lower(self.chain, amount).is_ok());
+        // `(a, b, c)^T`, or an amount in printed symbols.
+        if !is_amount && let Ok(matrix) = latex::read_matrix(text, &self.symbols.reading(&[text])) {
+            return self.define(symbol, text, whole, Ok(matrix));
+        }
+        let amount = match parsed {
             Ok(amount) => amount,
             Err(mistakes) => {
                 for mistake in &mistakes {

@@ -49,6 +49,37 @@ impl PrintedSymbols {
 }
 
 impl Parser<'_> {
+    /// An abbreviation that the declaration also prints for an error or constant: `c_1` of `c1` beside joint 1. Where the claims
+    /// file prints that name in another way, it is the cosine; elsewhere it could be either.
+    pub(super) fn abbreviation_of_declared(&mut self) -> Option<Result<Value, Unreadable>> {
+        if !self.symbols.abbreviates {
+            return None;
+        }
+        let read = glyph::read(self.tokens.get(self.at..)?).ok()??;
+        let Glyph { base, lower, upper, .. } = &read.glyph;
+        let is_numbered = lower.starts_with(|c: char| c.is_ascii_digit());
+        if !is_numbered || !matches!(base.as_str(), "c" | "C" | "s" | "S") {
+            return None;
+        }
+        let is_power = matches!(After::of(upper), Some(After::Power(_)));
+        let bare =
+            Glyph { upper: if is_power { String::new() } else { upper.clone() }, ..read.glyph.clone() };
+        let entry = self.symbols.entry(&[bare], &[]).filter(|entry| entry.is_declared)?;
+        let name = entry.name()?.to_owned();
+        let angle = self.angle_of_index(lower, &read)?.ok()?;
+        if self.symbols.renames(&name) {
+            return self.abbreviation(&read);
+        }
+        let function = if base.eq_ignore_ascii_case("c") { "cos" } else { "sin" };
+        let printed = &entry.printed;
+        let joints: Vec<&str> = angle.names().into_iter().map(|(joint, _)| joint).collect();
+        let joints = joints.join(" + ");
+        let message = format!("is `{printed}` the declared `{name}`, or {function}({joints})?");
+        Some(Err(Mistake::new(read.place.clone(), message).with_help(format!(
+            "say which under [symbols]: '{printed}' = \"{name}\", or '{printed}' = \"{function}({joints})\""
+        ))))
+    }
+
     pub(super) fn abbreviation(&mut self, read: &ReadGlyph) -> Option<Result<Value, Unreadable>> {
         if !self.symbols.abbreviates {
             return None;

@@ -157,15 +157,16 @@ impl Parser<'_> {
         if base.len() < 3 && base != "R" {
             return None;
         }
-        // `\mathrm{Rot}(z, \psi)`
-        let [open, letter, comma, ..] = self.tokens.get(start + read.tokens..)? else { return None };
-        let axis = match &letter.kind {
-            Kind::Word(letter) if open.kind == Kind::Mark('(') && comma.kind == Kind::Mark(',') => {
-                axis_of(letter)?
-            }
-            _ => return None,
-        };
-        self.at = start + read.tokens + 3;
+        // `\mathrm{Rot}(z, \psi)`, `\mathrm{Rot}(\hat{z}, \psi)`
+        let [open, rest @ ..] = self.tokens.get(start + read.tokens..)? else { return None };
+        let letter = glyph::read(rest).ok()??;
+        let comma = rest.get(letter.tokens)?;
+        if open.kind != Kind::Mark('(') || comma.kind != Kind::Mark(',') {
+            return None;
+        }
+        let bare = letter.glyph.base.strip_prefix("\\hat{").and_then(|base| base.strip_suffix('}'));
+        let axis = axis_of(bare.unwrap_or(&letter.glyph.base))?;
+        self.at = start + read.tokens + 2 + letter.tokens;
         let amount = self.formula().and_then(Value::scalar);
         let closed = amount.and_then(|amount| {
             self.expect_closer(&Kind::Mark(')'))?;

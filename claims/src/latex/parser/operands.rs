@@ -162,6 +162,9 @@ impl Parser<'_> {
     }
 
     pub(super) fn symbol(&mut self) -> Result<Value, Unreadable> {
+        if let Some(abbreviation) = self.abbreviation_of_declared() {
+            return abbreviation;
+        }
         let found = match self.symbols.find(self.text, &self.tokens[self.at..]) {
             Ok(found) => found,
             Err(_) if self.is_at_command("pi") => {

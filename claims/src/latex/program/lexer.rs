@@ -20,10 +20,14 @@ const LIBRARIES: [&str; 7] = ["np.", "numpy.", "math.", "Math.", "std::", "linal
 /// Words that say of what type a value is.
 const TYPES: [&str; 9] = ["double", "float", "const", "auto", "let", "var", "return", "static", "final"];
 
-/// Whether a text can only be lines of a program.
+/// Whether a text can only be lines of a program, several that each give a name included.
 #[must_use]
 pub fn is_line_of_program(text: &str) -> bool {
-    CUES.iter().any(|cue| text.contains(cue)) || text.trim_end().ends_with(';')
+    let mut lines = text.lines().filter(|line| !line.trim().is_empty());
+    let names = |line: &str| line.matches('=').count() == 1 && !line.trim_start().starts_with('=');
+    CUES.iter().any(|cue| text.contains(cue))
+        || text.trim_end().ends_with(';')
+        || (lines.clone().count() > 1 && lines.all(names))
 }
 
 /// The tokens of lines; `is_declared` tells names that are not the language's.
@@ -32,7 +36,8 @@ pub(super) fn tokens(text: &str, is_declared: impl Fn(&str) -> bool) -> Result<V
     let mut lexer = Lexer {
         text,
         at: 0,
-        depth: 0,
+        open: Vec::new(),
+        lists: Vec::new(),
         tokens: Vec::new(),
         is_python: has(&PYTHON),
         is_c: has(&C) || (text.contains(';') && !has(&PYTHON) && !has(&["[", ".*", "./", ".^", "%"])),
@@ -47,7 +52,10 @@ pub(super) fn tokens(text: &str, is_declared: impl Fn(&str) -> bool) -> Result<V
 struct Lexer<'a> {
     text: &'a str,
     at: usize,
-    depth: usize,
+    /// The brackets that are open.
+    open: Vec<char>,
+    /// Where those of lists are.
+    lists: Vec<usize>,
     tokens: Vec<Token>,
     is_python: bool,
     /// Whether whole numbers may be divided as C divides them.
@@ -92,15 +100,18 @@ impl Lexer<'_> {
                 return self.sign(sign, start);
             }
         }
+        if next == '.' && self.ends_operand() && self.method(start) {
+            return Ok(());
+        }
         self.at += next.len_utf8();
         match next {
-            '\n' if self.depth == 0 => self.push(Kind::Row, start),
+            '\n' if self.open.is_empty() => self.push(Kind::Row, start),
             ';' => {
-                let kind = if self.depth == 0 { Kind::Row } else { Kind::Mark(';') };
+                let kind = if self.open.is_empty() { Kind::Row } else { Kind::Mark(';') };
                 self.push(kind, start);
             }
             '#' | '%' => self.skip_while(|c| c != '\n'),
-            c if c.is_whitespace() => {}
+            c if c.is_whitespace() => return self.blank(c == '\n', start),
             '\\' => {}
             '^' if self.is_python || self.says_c => {
                 return Err(Mistake::new(start..self.at, "in this language `^` is no power")
@@ -117,13 +128,17 @@ impl Lexer<'_> {
                 if next == '(' {
                     self.refuse_neighbour(start)?;
                 }
-                self.depth += 1;
+                self.open.push(next);
+                self.lists.extend((next == '[').then_some(start));
                 self.push(Kind::Mark(next), start);
             }
             ')' | ']' => {
-                self.depth = self.depth.saturating_sub(1);
+                if self.open.pop() == Some('[') {
+                    self.lists.pop();
+                }
                 self.push(Kind::Mark(next), start);
             }
+            ',' if self.open.is_empty() && self.says_c && self.gives_name() => self.push(Kind::Row, start),
             '+' | '-' | '=' | ',' => {
                 if next != ',' && self.peek() == Some('=') {
                     return Err(Mistake::new(start..self.at + 1, "only `=` gives a name to a formula"));
@@ -137,6 +152,75 @@ impl Lexer<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Whether a name and its `=` follow: `double c = cos(h), s = sin(h);`.
+    fn gives_name(&self) -> bool {
+        let rest = self.rest().trim_start();
+        let behind = rest.trim_start_matches(|c: char| c.is_ascii_alphanumeric() || c == '_');
+        behind.len() < rest.len() && behind.trim_start().starts_with('=')
+    }
+
+    /// Blanks between the entries of a list part them in MATLAB: `[cos(h) -sin(h) 0]`; so do ends of lines its rows.
+    fn blank(&mut self, mut is_row: bool, start: usize) -> Result<(), Unreadable> {
+        is_row |= self.rest().chars().take_while(|c| c.is_whitespace()).any(|c| c == '\n');
+        self.skip_while(char::is_whitespace);
+        if self.open.last() != Some(&'[') || self.is_python || self.says_c || !self.ends_operand() {
+            return Ok(());
+        }
+        let mut rest = self.rest().chars();
+        let (next, behind) = (rest.next(), rest.next());
+        let is_sign = matches!(next, Some('+' | '-')) && behind.is_some_and(|c| !c.is_whitespace());
+        let begins = next.is_some_and(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '(' | '['))
+            || (next == Some('.') && behind.is_some_and(|c| c.is_ascii_digit()));
+        if is_sign && self.has_commas() {
+            return Err(Mistake::new(self.at..self.at + 1, "does a new entry begin with this sign?")
+                .with_help("write a comma before it, or blanks on both sides of it"));
+        }
+        if begins || is_sign {
+            self.push(Kind::Mark(if is_row { ';' } else { ',' }), start);
+        }
+        Ok(())
+    }
+
+    /// Whether commas part the entries of the innermost open list.
+    fn has_commas(&self) -> bool {
+        let Some(&open) = self.lists.last() else { return false };
+        let mut depth = 0;
+        for c in self.text[open..].chars() {
+            match c {
+                '(' | '[' => depth += 1,
+                ')' | ']' if depth == 1 => return false,
+                ')' | ']' => depth -= 1,
+                ',' if depth == 1 => return true,
+                _ => {}
+            }
+        }
+        false
+    }
+
+    /// What Python writes behind an operand: `.T`, `.dot(b)`, `.flatten()`. The length is skipped where it is one.
+    fn method(&mut self, start: usize) -> bool {
+        for shape in [".flatten()", ".ravel()", ".squeeze()"] {
+            if self.rest().starts_with(shape) {
+                self.at += shape.len();
+                return true;
+            }
+        }
+        for (written, mark) in [(".transpose()", '\''), (".T", '\''), (".dot", '*')] {
+            let Some(behind) = self.rest().strip_prefix(written) else { continue };
+            let is_whole = if mark == '*' {
+                behind.starts_with('(')
+            } else {
+                !behind.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '_')
+            };
+            if is_whole {
+                self.at += written.len();
+                self.push(Kind::Mark(mark), start);
+                return true;
+            }
+        }
+        false
     }
 
     fn sign(&mut self, sign: &str, start: usize) -> Result<(), Unreadable> {
@@ -153,6 +237,11 @@ impl Lexer<'_> {
     /// A whole power behind its sign.
     fn power(&mut self, start: usize) -> Result<(), Unreadable> {
         self.skip_while(|c| c == ' ');
+        if self.peek() == Some('T') && self.ends_operand() {
+            self.at += 1;
+            self.push(Kind::Mark('\''), start);
+            return Ok(());
+        }
         let bracketed = self.peek() == Some('(');
         self.at += usize::from(bracketed);
         let from = self.at;
@@ -226,6 +315,11 @@ impl Lexer<'_> {
         let from = self.at;
         self.skip_while(|c| c.is_ascii_alphanumeric() || c == '_');
         let word = self.text[from..self.at].to_owned();
+        let begins_line = self.tokens.last().is_none_or(|token| token.kind == Kind::Row);
+        if begins_line && matches!(word.as_str(), "import" | "from" | "using") && self.peek() == Some(' ') {
+            self.skip_while(|c| c != '\n');
+            return Ok(());
+        }
         if word.is_empty() {
             return Err(Mistake::new(start..self.at, "a function is missing behind its library"));
         }
@@ -242,13 +336,6 @@ impl Lexer<'_> {
             "pi" | "PI" | "M_PI" if !is_declared(&word) => self.push(Kind::Command("pi".to_owned()), start),
             _ if is_called && !is_declared(&word) => self.push(Kind::Command(format!("call {word}")), start),
             _ => self.push(Kind::Name(word), start),
-        }
-        // `R.T`
-        if self.rest().starts_with(".T") && !self.rest()[2..].starts_with(|c: char| c.is_ascii_alphanumeric())
-        {
-            let at = self.at;
-            self.at += 2;
-            self.push(Kind::Mark('\''), at);
         }
         Ok(())
     }

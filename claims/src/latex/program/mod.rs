@@ -90,7 +90,7 @@ fn value(text: &str, row: &Row, symbols: &PrintedSymbols) -> Result<(Value, Note
 fn rows(text: &str, symbols: &PrintedSymbols) -> Result<Vec<Row>, Unreadable> {
     let tokens = lists::marked(lexer::tokens(text, |name| symbols.declares(name))?)?;
     let mut given: BTreeMap<String, Vec<Token>> = BTreeMap::new();
-    let mut used: Vec<String> = Vec::new();
+    let (mut used, mut shadowed): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
     let mut rows: Vec<(Option<String>, Row)> = Vec::new();
     let mut depth = 0;
     let ends = |token: &Token| {
@@ -113,6 +113,11 @@ fn rows(text: &str, symbols: &PrintedSymbols) -> Result<Vec<Row>, Unreadable> {
         let mut expanded = Vec::with_capacity(formula.len());
         for token in formula {
             match &token.kind {
+                Kind::Name(own) if shadowed.contains(own) => {
+                    let message = format!("is `{own}` here the declared one, or what a line above calls so?");
+                    return Err(Mistake::new(token.place.clone(), message)
+                        .with_help("give the value of that line a name that is not declared"));
+                }
                 Kind::Name(own) if given.contains_key(own) => {
                     used.push(own.clone());
                     let mark = |mark| Token { kind: Kind::Mark(mark), ..token.clone() };
@@ -127,8 +132,12 @@ fn rows(text: &str, symbols: &PrintedSymbols) -> Result<Vec<Row>, Unreadable> {
             [Token { kind: Kind::Name(own), .. }] => Some(own.clone()),
             _ => None,
         };
-        if let Some(own) = own.as_ref().filter(|own| !symbols.declares(own)) {
-            given.insert(own.clone(), expanded.clone());
+        match &own {
+            Some(own) if symbols.declares(own) => shadowed.push(own.clone()),
+            Some(own) => {
+                given.insert(own.clone(), expanded.clone());
+            }
+            None => {}
         }
         let end = formula.last().map_or(text.len(), |token| token.place.end);
         rows.push((own, Row { name: name.to_vec(), formula: expanded, end: end..end }));

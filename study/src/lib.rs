@@ -5,6 +5,7 @@
 //! (`load`). Whatever is wrong with a study is told at once, each mistake with its place (`mistakes`, `syntax`).
 
 mod amount;
+mod asked;
 mod cells;
 mod column_plan;
 mod columns;
@@ -49,6 +50,7 @@ mod unsought;
 mod unstated;
 mod written;
 
+pub use asked::Asked;
 pub use column_plan::ColumnAt;
 pub use conversion::{Conversion, Notation};
 pub use frozen::{Frozen, FrozenTerm};

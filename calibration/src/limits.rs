@@ -21,6 +21,7 @@ pub(crate) const ANYWHERE_RAD: f64 = 1.0;
 pub(crate) const OF_DISTANCE: f64 = 0.2;
 
 const ASKED: &str = "specification: a larger error is no size of an error";
+const RULE: &str = "specification: figures of a few rows scatter by as much";
 const NUMERICS: &str = "numerics: first-order columns by differences hold six digits";
 
 /// Every number that decides here.
@@ -29,13 +30,13 @@ pub const THRESHOLDS: &[Threshold] = &[
         "ladder.worth_writing",
         WORTH_WRITING,
         "largest share of the held-out error of all declared errors that a simpler model may leave to be written",
-        TRIALS,
+        RULE,
     ),
     Threshold::new(
         "ladder.fewest",
         FEWEST as f64,
         "rows, or groups of rows, that separate models at least",
-        TRIALS,
+        RULE,
     ),
     Threshold::new(
         "fold.unseen",
@@ -53,7 +54,7 @@ pub const THRESHOLDS: &[Threshold] = &[
         "fold.short",
         SHORT,
         "share of the sum of squares that one step may miss, else the rows outside a fold are fitted anew",
-        "TODO",
+        "specification: changes an RMS by less than one percent",
     ),
     Threshold::new(
         "fold.refitted",

@@ -76,7 +76,8 @@ impl<'a> Without<'a> {
         let k = kept.len();
         let back = Mat::from_fn(p, k, |row, at| vectors[(row, kept[at])] / root_of(at) / scale[row]);
         let shown = &matrix * Mat::from_fn(p, k, |row, at| vectors[(row, kept[at])] / root_of(at));
-        let score = (0..k).map(|at| shown.col_as_slice(at).iter().zip(&residual).map(|(a, b)| a * b).sum());
+        let score =
+            (0..k).map(|at| shown.col_as_slice(at).iter().zip(&residual).map(|(a, b)| a * b).sum::<f64>());
         let score = score.collect();
         let start = chain.nominal_values();
         let away: Vec<f64> =

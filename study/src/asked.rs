@@ -5,7 +5,7 @@ use toml::Spanned;
 
 use super::amount::{si, si_with_unit};
 use super::estimated::matching;
-use super::mistakes::{Gathered, Outcome, Several, mistake, unknown};
+use super::mistakes::{Gathered, Outcome, Several, mistake};
 use super::written::Study;
 use fit::FitOptions;
 use observe::SiUnit;
@@ -20,7 +20,7 @@ pub struct Asked {
 }
 
 impl Study {
-    /// What this one asks; `unit` is that of the first residuals.
+    /// What this one asks; a goal has the unit of the first residuals.
     pub(super) fn asked(
         &self,
         chain: &Chain,
@@ -73,14 +73,16 @@ fn named(chain: &Chain, name: &Spanned<String>, estimate: &[SymbolId]) -> Outcom
         let fixed: String = written.chars().filter(|letter| !matches!(letter, '*' | '?')).collect();
         let own: Vec<&str> =
             chain.symbols_of(SymbolKind::Error).map(|id| chain.symbol(id).name.as_str()).collect();
-        match names::nearest(&fixed, own.iter().copied()) {
-            Some(near) => mistake(
-                name.span(),
-                format!("no error or constant matches `{written}`"),
-                format!("the nearest name is `{near}`"),
-            ),
-            None => unknown(name.span(), "error or constant", written, own.iter().copied()),
-        }
+        let help = names::nearest(&fixed, own.iter().copied()).map_or_else(
+            || {
+                format!(
+                    "there are {}",
+                    own.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+                )
+            },
+            |near| format!("the nearest name is `{near}`"),
+        );
+        mistake(name.span(), format!("no error or constant matches `{written}`"), help)
     })?;
     let estimated: Vec<SymbolId> = all.into_iter().filter(|id| estimate.contains(id)).collect();
     if estimated.is_empty() {

@@ -24,6 +24,7 @@ mod labels;
 mod load;
 mod memory;
 mod mistakes;
+mod narrower;
 mod next;
 mod observed;
 mod order;

@@ -155,7 +155,8 @@ fn a_goal_is_judged_and_wanted_errors_stand_first() {
         ("[goal]\nrms = \"5 arcsec\"\n", "length"),
         ("[goal]\nrms = 5\n", "without a unit"),
         ("[goal]\nrms = \"0 mm\"\n", "larger than zero"),
-        ("[report]\nwanted = [\"tol_*\"]\n", "nearest name is `tool_"),
+        ("[report]\nwanted = [\"tool_w*\"]\n", "nearest name is `tool_"),
+        ("[report]\nwanted = [\"x*\"]\n", "there are `base_x`"),
         ("[report]\nwanted = [\"tool_w\"]\n", "did you mean `tool_"),
         ("[fit]\nfix = { tool_x = 0 }\n[report]\nwanted = [\"tool_x\"]\n", "is not estimated"),
     ] {

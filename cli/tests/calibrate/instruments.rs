@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::figures::holds;
+use crate::figures;
 use crate::support::{root, trueaxis};
 
 const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
@@ -90,5 +90,5 @@ fn the_turntable_lacks_nothing() {
     let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
     assert_eq!(report["verdict"], "nothing detectable");
     let planted = [("tilt_x", 20.0), ("tilt_y", -35.0), ("index", 60.0)];
-    holds(&report, &planted.map(|(name, planted_arcsec)| (name, planted_arcsec * ARCSEC)));
+    figures::holds(&report, &planted.map(|(name, planted_arcsec)| (name, planted_arcsec * ARCSEC)));
 }

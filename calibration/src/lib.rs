@@ -5,6 +5,7 @@ pub mod calibrate;
 pub(crate) mod contest;
 pub mod design;
 pub mod diagnose;
+pub(crate) mod limits;
 pub mod misread;
 pub mod search;
 pub mod thresholds;

@@ -4,6 +4,7 @@
 use std::ops::Range;
 
 use calibration::calibrate::OfEveryRow;
+use calibration::diagnose::Diagnosis;
 use fit::{Foretelling, Next, Pass, Streamed, StreamedResult, Tally, Validation};
 use model_core::SymbolId;
 use observe::{Observations, Poses, Series};
@@ -70,6 +71,12 @@ pub fn read(
     Ok((studied.with_data(loaded, &terminal::warn), Some(Others { files })))
 }
 
+/// The errors that the written model does without.
+fn held(diagnosis: &Diagnosis, plan: &Plan) -> Vec<SymbolId> {
+    let names = diagnosis.ladder.iter().flat_map(|ladder| ladder.above(ladder.written));
+    names.filter_map(|name| plan.chain.find_symbol(name)).collect()
+}
+
 /// Whether a part of the rows can stand for all: not where they observe what nobody knows, or several things, or where readings are
 /// uncertain, which rows that are read chunk by chunk do not follow.
 fn may_be_drawn(plan: &Plan) -> bool {
@@ -98,8 +105,9 @@ impl Others {
     ) -> Result<(), Failure> {
         let Some(amended) = &calibrated.calibration.amended else { return Ok(()) };
         let declared = calibrated.studied();
-        let amended =
+        let mut amended =
             Studied::of(declared.study.clone(), Source::of_text("amended.chain", amended), &terminal::warn)?;
+        amended.plan = amended.plan.holding(&held(&calibrated.calibration.diagnosis, &amended.plan));
         let drawn =
             [calibrated.observations().clone(), renamed(calibrated.observations(), declared, &amended)];
         let start = |studied: &Studied, drawn| {

@@ -13,6 +13,14 @@ pub struct Threshold {
     pub source: &'static str,
 }
 
+impl Threshold {
+    /// A line.
+    #[must_use]
+    pub const fn new(name: &'static str, value: f64, meaning: &'static str, source: &'static str) -> Self {
+        Self { name, value, meaning, source }
+    }
+}
+
 /// Writes the struct, its defaults and the table from one list, so that they cannot differ.
 macro_rules! policy {
     ($($(#[doc = $meaning:literal])+ $name:ident = $value:literal, $source:literal;)*) => {

@@ -22,6 +22,9 @@ const NO_PART: f64 = 1e-6;
 /// would notice: it adds half a percent to that.
 const UNNOTICED: f64 = 0.1;
 
+/// The first parameter of a combination has the factor 1 where its part in what the data see is at least this share of the largest.
+const LEADS: f64 = 1e-3;
+
 /// Of the parts of an undetermined combination the last one of at least this share of the largest stands for it.
 const STANDS: f64 = 0.5;
 
@@ -223,7 +226,8 @@ impl Subspace {
     }
 
     /// Independent combinations that the data determine, as many as the rank: parameters in their order with their factors
-    /// (SI), the first 1. Where sizes hold the rest, the parameter that a combination is of comes first, and behind it what it hangs on.
+    /// (SI), the first 1. The parameter that a combination is of comes first where sizes hold the rest, or where the first in order hardly has a
+    /// part in it; behind it stands what it hangs on.
     #[must_use]
     pub fn combinations(&self) -> Vec<Vec<(usize, f64)>> {
         let free = (0..self.scale.len()).filter(|row| !self.pivots.contains(row));
@@ -234,7 +238,12 @@ impl Subspace {
             });
             let mut parts: Vec<(usize, f64)> = others.filter(|(_, part)| *part != 0.0).collect();
             parts.push((row, 1.0));
-            parts.sort_by_key(|(parameter, _)| (self.is_beyond && *parameter != row, *parameter));
+            parts.sort_by_key(|(parameter, _)| *parameter);
+            // Of one that hardly has a part in it the others would be ten thousands.
+            let share = |&(own, part): &(usize, f64)| (part * self.scale[row] / self.scale[own]).abs();
+            let largest = parts.iter().map(share).fold(0.0, f64::max);
+            let leads = !self.is_beyond && share(&parts[0]) >= LEADS * largest;
+            parts.sort_by_key(|(parameter, _)| (!leads && *parameter != row, *parameter));
             let first = parts[0].1;
             parts.iter_mut().for_each(|(_, part)| *part = plain(*part / first));
             parts
@@ -347,6 +356,19 @@ mod tests {
                 approx::assert_relative_eq!(*value, expected, epsilon = 1e-12);
             }
         }
+    }
+
+    /// The first is what the second is, and hardly anything of the third.
+    #[test]
+    fn a_combination_is_of_what_the_data_see_of_it() {
+        let (some, little) = (-0.2, -4e-6);
+        let rows =
+            [[some, 1.0, 0.0, 0.0], [little, 0.0, 1.0, 0.0], [some, 1.0, 0.0, 1.0], [little, 0.0, 1.0, 2.0]];
+        let combinations = Subspace::determined(&partial(&rows), vec![1.0; 4]).combinations();
+        let names: Vec<Vec<usize>> =
+            combinations.iter().map(|own| own.iter().map(|(parameter, _)| *parameter).collect()).collect();
+        assert_eq!(names, [vec![0, 1], vec![2, 1], vec![3]], "{combinations:?}");
+        assert!(combinations.iter().flatten().all(|(_, factor)| factor.abs() < 10.0), "{combinations:?}");
     }
 
     /// What a fourth parameter leaves open together with the first, the first determines by itself.

@@ -90,6 +90,16 @@ pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
         text.push_str("\n[search]\n");
         let _ = writeln!(text, "inputs = {}", list(draft.inputs.iter().map(String::as_str)));
     }
+    let good = if matches!(draft.observed, Observed::Point(_) | Observed::Target(..)) {
+        "0.1 mm"
+    } else {
+        "5 arcsec"
+    };
+    let _ = write!(
+        text,
+        "\n# The specification, which the report judges, and the errors that it shows first:\n# [goal]\n# rms = \"{good}\"\n\
+         # [report]\n# wanted = []\n"
+    );
     if let Some((observable, turned)) = &draft.turned {
         let _ = writeln!(
             text,

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::words::{self, Answers, Tone, numbers, sentence_case};
+use crate::words::{self, Answers, EstimateLine, Tone, numbers, sentence_case};
 use anstyle::Style;
 use calibration::diagnose::{Diagnosis, EffectFound, Rms};
 use model_core::escape::{Screen, line};
@@ -36,6 +36,7 @@ pub fn as_text(reported: &Reported<'_>, layout: Layout) -> Screen {
     let mut page = Page { text: Screen::default(), layout };
     page.answers(&answers, diagnosis);
     page.residuals(diagnosis);
+    page.models(diagnosis);
     page.values(diagnosis);
     page.frozen(diagnosis);
     if layout.verbose {
@@ -138,6 +139,9 @@ impl Page {
         if let Some(chance) = &answers.chance {
             self.say("", &format!("{}.", sentence_case(chance)));
         }
+        if let Some(goal) = &answers.goal {
+            self.say("", goal);
+        }
         // What the verdict says already is no caution beside it.
         let cautions = diagnosis.cautions.iter().map(words::caution).filter(|own| *own != answers.happened);
         for caution in cautions {
@@ -146,6 +150,7 @@ impl Page {
             self.styled(CAREFUL, "Caution");
             let _ = write!(self.text, "{}", told.strip_prefix("Caution").unwrap_or(&told));
         }
+        self.wanted(diagnosis);
         if !answers.what.is_empty() {
             self.heading("What it is");
             answers.what.iter().for_each(|what| self.say("  ", what));
@@ -214,18 +219,53 @@ impl Page {
         }
     }
 
+    /// The models, each judged on held-out rows.
+    fn models(&mut self, diagnosis: &Diagnosis) {
+        let Some(ladder) = diagnosis.ladder.as_ref().filter(|_| diagnosis.verdict.is_usable()) else {
+            return;
+        };
+        self.heading(&format!("{:38} {:>12}   held-out data (RMS)", "Models", "errors"));
+        for line in words::models(ladder) {
+            let mark = if line.is_simplest { "  (simplest that none beats)" } else { "" };
+            let _ = writeln!(self.text, "  {:36} {:>12}   {}{mark}", line.what, line.errors, line.held_out);
+        }
+        if let Some(missing) = words::missing_models(ladder).filter(|_| self.layout.verbose) {
+            self.say("  ", &missing);
+        }
+    }
+
+    /// The errors that the study wants first.
+    fn wanted(&mut self, diagnosis: &Diagnosis) {
+        if diagnosis.wanted.is_empty() || !diagnosis.verdict.is_usable() {
+            return;
+        }
+        self.heading("Wanted errors, with standard uncertainties");
+        let estimates = words::estimates(diagnosis);
+        self.estimates(estimates.lines.iter().filter(|line| line.wanted));
+        if let Some(missing) = words::wanted_not_shown(diagnosis) {
+            self.say("  ", &missing);
+        }
+    }
+
+    fn estimates<'a>(&mut self, lines: impl Iterator<Item = &'a EstimateLine> + Clone) {
+        let width = lines.clone().map(|line| line.what.chars().count()).max().unwrap_or_default().min(40);
+        for line in lines {
+            let found = if line.found { "  (found)" } else { "" };
+            let _ = writeln!(self.text, "  {:width$}  {}{found}", line.what, line.estimate);
+        }
+    }
+
     fn values(&mut self, diagnosis: &Diagnosis) {
         if !diagnosis.verdict.is_usable() {
             return;
         }
         let estimates = words::estimates(diagnosis);
-        let width =
-            estimates.lines.iter().map(|line| line.what.chars().count()).max().unwrap_or_default().min(40);
-        self.heading("Errors, with standard uncertainties");
-        for line in &estimates.lines {
-            let found = if line.found { "  (found)" } else { "" };
-            let _ = writeln!(self.text, "  {:width$}  {}{found}", line.what, line.estimate);
+        let others = estimates.lines.iter().filter(|line| !line.wanted);
+        let which = if estimates.lines.iter().any(|line| line.wanted) { "Other errors" } else { "Errors" };
+        if others.clone().next().is_some() || !estimates.notes.is_empty() {
+            self.heading(&format!("{which}, with standard uncertainties"));
         }
+        self.estimates(others);
         estimates.notes.iter().for_each(|note| self.say("  ", &format!("{}.", sentence_case(note))));
     }
 

@@ -5,6 +5,7 @@
 //! (`load`). Whatever is wrong with a study is told at once, each mistake with its place (`mistakes`, `syntax`).
 
 mod amount;
+mod asked;
 mod cells;
 mod column_plan;
 mod columns;
@@ -23,6 +24,7 @@ mod labels;
 mod load;
 mod memory;
 mod mistakes;
+mod narrower;
 mod next;
 mod observed;
 mod order;
@@ -49,6 +51,7 @@ mod unsought;
 mod unstated;
 mod written;
 
+pub use asked::Asked;
 pub use column_plan::ColumnAt;
 pub use conversion::{Conversion, Notation};
 pub use frozen::{Frozen, FrozenTerm};

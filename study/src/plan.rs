@@ -5,6 +5,7 @@ use model_core::{Chain, Mistakes, ObservableId, SymbolId, SymbolKind};
 use toml::Spanned;
 
 use super::amount::si;
+use super::asked::Asked;
 use super::column_plan::{ColumnPlan, column_plan};
 use super::estimated::{estimable, matching};
 use super::frozen::Frozen;
@@ -48,6 +49,8 @@ pub struct Plan {
     pub hold_out: HoldOut,
     /// Where to propose to measure next.
     pub next: Option<NextPoses>,
+    /// What is asked of the answer.
+    pub asked: Asked,
     /// Where the data are to be had, for whoever has not got them.
     pub data_from: Option<String>,
     /// Bare numbers of the study that are hardly in SI.
@@ -88,14 +91,6 @@ impl Plan {
             Some(key) => key,
             None => unreachable!("a component that is observed has a key"),
         }
-    }
-
-    /// The same of these files alone, with as many sources.
-    #[must_use]
-    pub fn of_files(&self, paths: &[String]) -> Self {
-        let mut plan = self.clone();
-        plan.sources.iter_mut().for_each(|source| source.paths = paths.to_vec());
-        plan
     }
 }
 
@@ -197,6 +192,8 @@ impl Study {
         let sizes = sources.as_ref().and_then(|sources| mistakes.take(self.tolerances(&chain, sources)));
         let plausible = mistakes.take(self.plausible(&chain));
         let reference = sources.as_ref().and_then(|sources| mistakes.take(self.reference(sources)));
+        let unit = sources.as_ref().and_then(|own| Some(own.first()?.measure.unit()));
+        let asked = mistakes.take(self.asked(&chain, unit, fit.as_ref()));
         mistakes.none()?;
         let (
             Some(sources),
@@ -211,8 +208,10 @@ impl Study {
             Some(sizes),
             Some(plausible),
             Some(reference),
+            Some(asked),
         ) = (
             sources, fit, search, frozen, hold_out, next, format, sigma, places, sizes, plausible, reference,
+            asked,
         )
         else {
             unreachable!("what is missing comes with a mistake")
@@ -239,6 +238,7 @@ impl Study {
             frozen,
             hold_out,
             next,
+            asked,
             places,
             plausible,
             data_from,

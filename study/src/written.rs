@@ -63,6 +63,12 @@ pub struct Study {
     pub(super) hold_out: HoldOutTable,
     /// Where to propose to measure next.
     pub(super) next: Option<Spanned<NextTable>>,
+    /// How good the instrument is to be.
+    #[serde(default)]
+    pub(super) goal: GoalTable,
+    /// How the answer is told.
+    #[serde(default)]
+    pub(super) report: ReportTable,
     /// Further data that observe otherwise.
     #[serde(default)]
     pub(super) also: Vec<Also>,
@@ -373,6 +379,22 @@ impl Default for HoldOutTable {
     fn default() -> Self {
         Self { folds: Spanned::new(0..0, 10), file: None, together: OneOrMore::default(), seed: 1 }
     }
+}
+
+/// `[goal]`.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct GoalTable {
+    /// The largest RMS on held-out rows that is good enough.
+    pub rms: Option<Spanned<Amount>>,
+}
+
+/// `[report]`.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct ReportTable {
+    /// The errors that stand first: names and patterns.
+    pub wanted: Vec<Spanned<String>>,
 }
 
 /// `[next]`.

@@ -5,7 +5,8 @@
 //! another one each time, or none, and predicts the rows left out worse than the declaration does. Where rows are few, the errors
 //! that are fitted beside such an effect are as wrong as it is.
 
-use super::{held_out, whole_objects};
+use super::held_out::{self, Judgement, Left};
+use super::whole_objects;
 use crate::diagnose::Caution;
 use crate::diagnose::rms::{BeforeAfter, Worse, worse};
 use crate::search::context::{Context, Found};
@@ -26,6 +27,8 @@ pub(super) struct Judged<'a> {
     pub held_out: HeldOut,
     /// One for each unit of residuals.
     pub rms: Vec<BeforeAfter>,
+    /// What held-out rows leave.
+    pub left: Option<Left<'a>>,
     /// The effects that were left out again.
     pub left_out: Vec<Caution>,
 }
@@ -43,11 +46,11 @@ pub(super) fn judged<'a>(
         return of_declaration(whole, before, round, left_out);
     }
     let held_out = round.held_out(whole);
-    let rms = figures(whole, before, &round, &held_out)?;
+    let Judgement { rms, left } = figures(whole, before, &round, &held_out)?;
     let Some(refused) =
         refused(whole, &round, &rms).filter(|_| !is_confirmed_by_places(whole, &round, &held_out))
     else {
-        return Ok(Judged { round, held_out, rms, left_out });
+        return Ok(Judged { round, held_out, rms, left, left_out });
     };
     left_out.push(refused);
     let round = Round::at(whole, Fitted::with(whole, Vec::new(), &round.fitted)?)?;
@@ -62,19 +65,19 @@ fn of_declaration<'a>(
     left_out: Vec<Caution>,
 ) -> Result<Judged<'a>, SearchError> {
     let held_out = HeldOut::of_declared(&round.search.problem);
-    let rms = figures(whole, before, &round, &held_out)?;
-    Ok(Judged { round, held_out, rms, left_out })
+    let Judgement { rms, left } = figures(whole, before, &round, &held_out)?;
+    Ok(Judged { round, held_out, rms, left, left_out })
 }
 
 /// Figures of rows left out: of whole objects where nothing else can be.
-pub(super) fn figures(
-    whole: &Context<'_>,
+pub(super) fn figures<'a>(
+    whole: &Context<'a>,
     before: &FitResult,
     round: &Round<'_>,
     held_out: &HeldOut,
-) -> Result<Vec<BeforeAfter>, SearchError> {
+) -> Result<Judgement<'a>, SearchError> {
     match whole_objects::left_out(whole, before, round)? {
-        Some(figures) => Ok(figures),
+        Some(rms) => Ok(Judgement { rms, left: None }),
         None => held_out::rms(whole, before, round, held_out),
     }
 }

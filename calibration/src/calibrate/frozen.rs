@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::confirm::{Judged, figures};
+use super::held_out::Judgement;
 use super::trials::Trials;
 use crate::diagnose::{FrozenModel, OtherTerm, TermFitted};
 use crate::search::context::{Context, Found};
@@ -67,9 +68,9 @@ pub(super) fn judged<'a>(
     }
     (whole.tell)(Stage::HeldOut);
     let held_out = round.held_out(whole);
-    let rms = figures(whole, before, &round, &held_out)?;
+    let Judgement { rms, left } = figures(whole, before, &round, &held_out)?;
     let model = model(whole, frozen, &round, &state)?;
-    Ok((Judged { round, held_out, rms, left_out: Vec::new() }, model))
+    Ok((Judged { round, held_out, rms, left, left_out: Vec::new() }, model))
 }
 
 /// What the terms, and the best of what is none, come to.

@@ -4,11 +4,11 @@
 //! Which held-out rows are gross outliers is for the searches that did not see them to say: a row is kept if what its
 //! fold's search predicts of it lies nearer than where the robust weights end. The same rows are kept before and after.
 
-use std::borrow::Cow;
-
+use super::without::{Without, values_of};
 use crate::diagnose::Rms;
 use crate::diagnose::expected_rms;
 use crate::diagnose::rms::BeforeAfter;
+use crate::limits::REFITTED;
 use crate::search::HeldOut;
 use crate::search::SearchError;
 use crate::search::columns::Columns;
@@ -24,32 +24,17 @@ use observe::{Observations, SiUnit};
 
 /// Unit by unit of the residuals: in sample; held out from the study's second file, or else from the nested folds; and in the outer thirds of the joints'
 /// ranges, from searches that did not see them.
-pub(crate) fn rms(
-    whole: &Context<'_>,
+pub(super) fn rms<'a>(
+    whole: &Context<'a>,
     before: &FitResult,
     last: &Round<'_>,
     held_out: &HeldOut,
-) -> Result<Vec<BeforeAfter>, SearchError> {
+) -> Result<Judgement<'a>, SearchError> {
     let observations = whole.request.observations;
     let layout = &last.fitted.layout;
     // Where nothing was added, the last fit is that of the declaration, wherever the first one ended.
     let before = if last.fitted.found.is_empty() { &last.fitted.fit } else { before };
-    // What is left of held-out rows before and after, how it lies, and which rows are within reach.
-    let held_out = match whole.request.second {
-        Some(second) => {
-            let residual = |chain, values: &[f64]| Columns::at(chain, second, declared(whole), values, &[]);
-            let before = residual(&whole.request.plan.chain, &before.values)?;
-            let after = residual(&last.fitted.chain, &last.fitted.fit.values)?;
-            let within = vec![true; second.rows()];
-            Some(([before.residual, after.residual], Cow::Owned(Layout::of(second)), within, second))
-        }
-        None if last.search.problem.folds() > 1 => {
-            let [before, after] = predicted(whole, last, [&held_out.before, &held_out.after])?;
-            let within = within_reach(whole, last, &after);
-            Some(([before, after], Cow::Borrowed(layout), within, observations))
-        }
-        None => None,
-    };
+    let left = left(whole, before, last, held_out)?;
     let weight = &last.fitted.fit.residuals.weight;
     let kept = |row: usize| weight[row] > 0.0;
     let units = observations.poses.units();
@@ -58,11 +43,11 @@ pub(crate) fn rms(
     let of_unit = |(place, &unit): (usize, &SiUnit)| {
         let in_sample =
             |fit: &FitResult| Figures::of(&fit.residuals.raw, layout, |row| of_row[row] == unit, kept);
-        let [held_before, held_after] = match &held_out {
+        let [held_before, held_after] = match &left {
             None => [Figures::default(), Figures::default()],
-            Some((left, layout, within, judged)) => {
+            Some(Left { before, after, layout, within, judged }) => {
                 let of_row = judged.poses.unit_of_row();
-                left.each_ref().map(|left| {
+                [before, after].map(|left| {
                     let own = |row: usize| of_row[row] == unit;
                     Figures::of(left, layout, own, |row| within[row])
                 })
@@ -84,7 +69,75 @@ pub(crate) fn rms(
             after: beside(held_after.beside(in_sample(&last.fitted.fit)), 1),
         }
     };
-    Ok(units.iter().enumerate().map(of_unit).collect())
+    let rms = units.iter().enumerate().map(of_unit).collect();
+    Ok(Judgement { rms, left })
+}
+
+/// Figures, and what is behind those of held-out rows.
+pub(super) struct Judgement<'a> {
+    /// One for each unit of residuals.
+    pub rms: Vec<BeforeAfter>,
+    /// None where nothing is held out, or where whole objects are.
+    pub left: Option<Left<'a>>,
+}
+
+/// What held-out rows leave, component by component, before whitening.
+pub(super) struct Left<'a> {
+    /// By the declared errors alone.
+    pub before: Vec<f64>,
+    /// With the effects that searches without them found.
+    pub after: Vec<f64>,
+    pub layout: Layout,
+    /// Which rows are within reach.
+    pub within: Vec<bool>,
+    /// The rows that are judged: those of the study, or of its second file.
+    pub judged: &'a Observations,
+}
+
+/// Of the study's second file, or else of the folds; none where nothing is held out.
+fn left<'a>(
+    whole: &Context<'a>,
+    before: &FitResult,
+    last: &Round<'_>,
+    held_out: &HeldOut,
+) -> Result<Option<Left<'a>>, SearchError> {
+    let observations = whole.request.observations;
+    if let Some(second) = whole.request.second {
+        let residual = |chain, values: &[f64]| Columns::at(chain, second, declared(whole), values, &[]);
+        let chain = &whole.request.plan.chain;
+        let before = residual(chain, &values_of(chain, before))?.residual;
+        let after = residual(&last.fitted.chain, &last.fitted.fit.values)?.residual;
+        let within = vec![true; second.rows()];
+        return Ok(Some(Left { before, after, layout: Layout::of(second), within, judged: second }));
+    }
+    if last.search.problem.folds() < 2 {
+        return Ok(None);
+    }
+    let [stepped, mut after] = predicted(whole, last, [&held_out.before, &held_out.after])?;
+    let own = match is_refitted(whole, before) {
+        true => {
+            let plan = whole.request.plan;
+            let of_row = |row: usize| last.search.fold_of(last.fitted.layout.first(row));
+            let folds = last.search.problem.folds();
+            Without::of(&plan.chain, observations, &plan.fit, before)?.each(of_row, folds)?
+        }
+        false => stepped,
+    };
+    // Where no search found anything, after is before.
+    if last.fitted.found.is_empty() && held_out.chosen.iter().all(Vec::is_empty) {
+        after.clone_from(&own);
+    }
+    let within = within_reach(whole, last, &after);
+    Ok(Some(Left { before: own, after, layout: last.fitted.layout.clone(), within, judged: observations }))
+}
+
+/// Whether the declaration is fitted by itself without each fold. Where nobody knows where objects are, each of them is estimated
+/// anew by the search's own step.
+pub(super) fn is_refitted(whole: &Context<'_>, before: &FitResult) -> bool {
+    let observations = whole.request.observations;
+    observations.unknowns.is_none()
+        && before.outcome.is_usable()
+        && observations.poses.components() * before.parameters.len() <= REFITTED
 }
 
 /// In sample alone, where no search was made.

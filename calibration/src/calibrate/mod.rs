@@ -5,7 +5,8 @@
 //! a memory of the noise competes with the effects (`memory`), shapes of the library compete with them (`functions`), the
 //! search is repeated without each fold (`held_out`), effects that do not help there are left out (`confirm`), and shapes are taken
 //! up where they help (`choice`). Where rows beside unknown objects that follow each other are off alike even so, all of it is done
-//! once more with stretches of them for groups (`stretches`), and what nobody fitted is whole objects (`whole_objects`).
+//! once more with stretches of them for groups (`stretches`), and what nobody fitted is whole objects (`whole_objects`). Where a simpler model of the
+//! `ladder` predicts held-out rows clearly better than all declared errors, all of it is done once more with that one (`simpler`).
 //! [`crate::diagnose`] says what it means; the crate `report` says it in words.
 
 mod amendment;
@@ -16,14 +17,17 @@ mod frozen;
 mod functions;
 mod heard;
 pub(crate) mod held_out;
+mod ladder;
 mod memory;
 mod outliers;
 mod places;
 mod rounds;
+mod simpler;
 mod stretches;
 mod trials;
 mod weighed;
 mod whole_objects;
+mod without;
 
 use std::cell::OnceCell;
 
@@ -146,6 +150,14 @@ pub fn calibrate_telling(
     request: Request<'_>,
     tell: &(dyn Fn(Stage) + Sync),
 ) -> Result<Calibration, CalibrateError> {
+    let declared = of_request(request, tell)?;
+    let Some(plan) = simpler::plan(request.plan, &declared.diagnosis) else { return Ok(declared) };
+    let simpler = of_request(Request { plan: &plan, ..request }, tell)?;
+    Ok(simpler::told(declared, simpler))
+}
+
+/// The loop with the errors that a study asks for.
+fn of_request(request: Request<'_>, tell: &(dyn Fn(Stage) + Sync)) -> Result<Calibration, CalibrateError> {
     let observables: Vec<_> =
         request.observations.poses.series.iter().map(|series| series.observable).collect();
     check_scale_of_ranges(&request.plan.chain, request.observations, &request.plan.fit)?;
@@ -199,8 +211,14 @@ fn told(
 ) -> Result<Calibration, CalibrateError> {
     let Chosen { whole, judged, as_good, contest } = chosen;
     let request = whole.request;
-    let Judged { round, held_out, rms, left_out } = judged;
-    let confirmed = Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, left_out };
+    // What rounding leaves separates no models.
+    let ladder = match rounding(request.observations, &before) {
+        Some(_) => None,
+        None => ladder::ladder(&whole, &before, &judged)?,
+    };
+    let Judged { round, held_out, rms, left_out, .. } = judged;
+    let confirmed =
+        Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, left_out, ladder };
     let diagnosis = Diagnosis { contest, frozen, ..diagnose(&whole, &before, &round.fitted, Ok(confirmed))? };
     let drawn = Shown::of(request.observations, &round.fitted.fit, DRAWN).rows;
     let traces = trace::traces(&whole, &round, &drawn)?;

@@ -40,5 +40,5 @@ pub(super) fn left_out(
     }
     let found = round.fitted.found.iter().flat_map(|found| problem.columns(found.effect));
     let held_out = HeldOut::of_columns(problem, &found.collect::<Vec<_>>());
-    held_out::rms(&whole, before, &round, &held_out).map(Some)
+    Ok(Some(held_out::rms(&whole, before, &round, &held_out)?.rms))
 }

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::ladder::{Ladder, RungName};
 use super::noise::NoiseFound;
 use super::uneven::Uneven;
 use crate::misread::{Implausible, Misread};
@@ -52,6 +53,22 @@ pub enum Caution {
         held_out: f64,
         /// Their unit.
         unit: SiUnit,
+    },
+    /// A simpler model predicts held-out rows better than all declared errors do.
+    #[serde(rename = "simpler model predicts better")]
+    SimplerPredictsBetter {
+        /// Which.
+        model: RungName,
+        /// RMS on held-out rows by it, SI.
+        simpler: f64,
+        /// RMS on held-out rows by all declared errors, SI.
+        declared: f64,
+        /// Their unit.
+        unit: SiUnit,
+        /// The errors that it does without.
+        spared: Vec<String>,
+        /// Whether it is the model that is written.
+        written: bool,
     },
     /// Effects passed the test, but made it worse on rows that their search did not see: they were left out again.
     #[serde(rename = "not confirmed on held-out data")]
@@ -325,6 +342,29 @@ pub enum Caution {
         /// Its estimate, rad.
         value_rad: f64,
     },
+}
+
+impl Caution {
+    /// What a ladder says of the declaration, where a simpler model predicts better.
+    pub(super) fn of_ladder(ladder: &Ladder) -> Option<Self> {
+        let [simpler, declared] = ladder.simpler()?;
+        Some(Self::SimplerPredictsBetter {
+            model: simpler.name,
+            simpler: simpler.held_out_rms_kept?,
+            declared: declared.held_out_rms_kept.unwrap_or(f64::INFINITY),
+            unit: ladder.unit,
+            spared: ladder.above(simpler.name).into_iter().map(str::to_owned).collect(),
+            written: false,
+        })
+    }
+
+    /// The same where the simpler model is what is written.
+    pub(crate) fn of_what_is_written(mut self) -> Self {
+        if let Self::SimplerPredictsBetter { written, .. } = &mut self {
+            *written = true;
+        }
+        self
+    }
 }
 
 /// What the noise says about what was stated of it.

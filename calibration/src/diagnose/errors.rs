@@ -26,6 +26,8 @@ pub struct ErrorFound {
     pub moves_by_cause: Option<[f64; 2]>,
     /// Its SI unit: `rad`, `m`, `1`, `rad/K`, …
     pub unit: SiUnit,
+    /// RMS of what it moves the observations, in units of their noise.
+    pub over_noise: f64,
     /// Whether these data determine it by itself.
     pub separable: bool,
     /// Whether these data show it at all, by itself or in a combination.
@@ -47,6 +49,8 @@ pub struct Estimable {
     pub moves_by_cause: Option<[f64; 2]>,
     /// Its SI unit, that of the first error.
     pub unit: SiUnit,
+    /// RMS of what it moves the observations, in units of their noise.
+    pub over_noise: f64,
     /// Degrees of freedom behind the uncertainty.
     pub degrees_of_freedom: f64,
 }
@@ -60,28 +64,42 @@ pub struct Part {
     pub ratio: String,
 }
 
-/// Every estimated error or constant, in the order of the fit.
+/// Every estimated error or constant: first those that the study wants, then by what they move the observations.
 pub(super) fn errors(whole: &Context<'_>, fitted: &Fitted, by_cause: &ByCause) -> Vec<ErrorFound> {
     let fit = &fitted.fit;
-    fit.parameters
+    let wanted = &whole.request.plan.asked.wanted;
+    let mut errors: Vec<(usize, ErrorFound)> = fit
+        .parameters
         .iter()
         .zip(&fit.separable)
         .enumerate()
         .map(|(at, (&id, &separable))| {
             let standard_uncertainty = fit.standard_uncertainty(id).filter(|_| separable);
             let freedom = fit.parameter_degrees_of_freedom[at];
-            ErrorFound {
+            let place = wanted.iter().position(|own| *own == id).unwrap_or(wanted.len());
+            let found = ErrorFound {
                 name: fitted.chain.symbol(id).name.clone(),
                 value: fit.values[id.index()],
+                over_noise: over_noise(fit, at, fit.values[id.index()]),
                 degrees_of_freedom: standard_uncertainty.map(|_| freedom).filter(|known| known.is_finite()),
                 standard_uncertainty,
                 moves_by_cause: standard_uncertainty.and_then(|own| by_cause.range(&[(id, 1.0)], own)),
                 unit: unit_of(&whole.setting, &fitted.chain, id),
                 separable,
                 shown: fit.shown[at],
-            }
+            };
+            (place, found)
         })
-        .collect()
+        .collect();
+    errors.sort_by(|(a, one), (b, other)| a.cmp(b).then(other.over_noise.total_cmp(&one.over_noise)));
+    errors.into_iter().map(|(_, found)| found).collect()
+}
+
+/// RMS over the rows that count of what a value of a parameter moves them, in units of their noise.
+fn over_noise(fit: &fit::FitResult, at: usize, value: f64) -> f64 {
+    let rows: f64 = fit.residuals.weight.iter().sum();
+    let moved = value.abs() * fit.factor.length(at) / rows.max(1.0).sqrt();
+    if moved.is_finite() { moved } else { 0.0 }
 }
 
 /// Every combination of several errors that these data determine, in the order of their first errors.
@@ -93,6 +111,7 @@ pub(super) fn estimable(whole: &Context<'_>, fitted: &Fitted, by_cause: &ByCause
             ratio: fraction(factor),
         };
         let (first, _) = one.combination.first()?;
+        let at = fitted.fit.parameters.iter().position(|own| own == first)?;
         let standard_uncertainty = one.standard_uncertainty?;
         Some(Estimable {
             combination: one.combination.iter().map(part).collect(),
@@ -100,6 +119,7 @@ pub(super) fn estimable(whole: &Context<'_>, fitted: &Fitted, by_cause: &ByCause
             standard_uncertainty,
             moves_by_cause: by_cause.range(&one.combination, standard_uncertainty),
             unit: unit_of(&whole.setting, &fitted.chain, *first),
+            over_noise: over_noise(&fitted.fit, at, one.value),
             degrees_of_freedom: one.degrees_of_freedom,
         })
     };

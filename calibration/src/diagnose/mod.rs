@@ -16,8 +16,10 @@ pub mod few;
 mod foretold;
 mod frozen;
 mod function;
+mod goal;
 mod harmonics;
 mod instrument;
+mod ladder;
 mod lengths;
 mod misplaced;
 mod misread;
@@ -29,6 +31,7 @@ mod noisy;
 mod of_data;
 mod otherwise;
 mod precision;
+mod reach;
 pub(crate) mod remaining;
 mod rivals;
 pub(crate) mod rms;
@@ -77,10 +80,12 @@ pub use errors::{ErrorFound, Estimable, Part};
 pub use every_row::{EveryRow, Foretold, SharedByFiles};
 pub use frozen::{FrozenModel, OtherTerm, TermFitted};
 pub use function::Form;
+pub use goal::Goal;
 pub use harmonics::Harmonics;
 pub use instrument::{
     BodyShown, ErrorShown, ErrorState, Instrument, JointShown, ObservedShown, ReadingShown,
 };
+pub use ladder::{Ladder, LeftOut, Rung, RungName, WhyNot};
 pub use lengths::LengthsOff;
 pub(crate) use misread::Unsearched;
 pub use mistakes::{Misreading, StatedPlaces};
@@ -91,6 +96,7 @@ pub use observe::kinds::MeasuredLengths;
 pub use of_data::{of_data, rounding};
 pub use otherwise::Otherwise;
 pub use precision::{Determined, NotSeparable, Precision, precision};
+pub(crate) use reach::largest_plausible;
 pub use remaining::{Looked, Remaining, Where};
 pub use rms::{Beside, Rms};
 pub use shown::Shown;
@@ -116,7 +122,10 @@ pub struct Diagnosis {
     /// What every row says, where the search read only some of them; errors and coefficients are then those of every row.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub every_row: Option<EveryRow>,
-    /// The declared and the new errors.
+    /// The errors that the study wants first, in their order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub wanted: Vec<String>,
+    /// The declared and the new errors: those that are wanted, then the others by what they move the observations.
     pub errors: Vec<ErrorFound>,
     /// What each input has part in of the uncertainties, where the study states those of the reference.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -167,6 +176,12 @@ pub struct Diagnosis {
     /// Residuals in other units: of directions and orientations beside points.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub beside: Vec<Beside>,
+    /// The specification that the study states; absent where it states none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub goal: Option<Goal>,
+    /// Models from the instrument as delivered to the one with effects, each judged on held-out rows; absent where nothing was held out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ladder: Option<Ladder>,
     /// The chain with the effects that were found.
     pub instrument: Instrument,
 }
@@ -211,6 +226,8 @@ pub(crate) struct Confirmed<'a> {
     pub as_good: &'a [AsGood],
     /// Effects that were left out again, since few rows speak for them, or held-out rows against them.
     pub left_out: Vec<Caution>,
+    /// Models from the instrument as delivered to the one of the round.
+    pub ladder: Option<Ladder>,
 }
 
 /// What fits and search come to. Without a search the fit alone is told: it failed, or had too few observations.
@@ -238,6 +255,10 @@ pub(crate) fn diagnose(
         cautions.push(Caution::DeclarationNotFitted { steps });
     }
     cautions.extend(confirmed.iter().flat_map(|confirmed| confirmed.left_out.clone()));
+    let most = |unit| largest_plausible(request.second.unwrap_or(observations), unit);
+    cautions = cautions.into_iter().map(|caution| caution.within(most)).collect();
+    let ladder = confirmed.as_ref().ok().and_then(|own| own.ladder.clone());
+    cautions.extend(ladder.as_ref().and_then(Caution::of_ladder));
     cautions.extend(caution::of_noise(&noise, fit.degrees_of_freedom));
     cautions.extend(caution::of_readings(&noise));
     cautions.extend(caution::of_memory(fit));
@@ -300,6 +321,7 @@ pub(crate) fn diagnose(
         observations: used::used(observations, fit),
         every_row: None,
         instrument: instrument::instrument(&whole.setting, &last.chain, observations, &errors),
+        wanted: request.plan.asked.wanted.iter().map(|id| last.chain.symbol(*id).name.clone()).collect(),
         budgets: budget::budgets(&last.chain, observations, fit, &errors)?,
         errors,
         estimable: errors::estimable(whole, last, &found.by_cause),
@@ -311,6 +333,7 @@ pub(crate) fn diagnose(
         separating: found.separating,
         precision,
         noise,
+        goal: Goal::of(request.plan.asked.rms, rms, !found.effects.is_empty(), most),
         effects: found.effects,
         frozen: None,
         contest: Vec::new(),
@@ -318,10 +341,15 @@ pub(crate) fn diagnose(
         remaining: found.remaining,
         harmonics: harmonics::harmonics(&last.chain, observations, before, fit),
         not_shown: found.not_shown,
-        before: rms.first().map_or_else(Rms::default, |own| own.before),
-        after: rms.first().map_or_else(Rms::default, |own| own.after),
+        before: rms.first().map_or_else(Rms::default, |own| own.before.within(most(own.unit))),
+        after: rms.first().map_or_else(Rms::default, |own| own.after.within(most(own.unit))),
         unit: rms.first().map_or(SiUnit::RAD, |own| own.unit),
-        beside: rms.iter().skip(1).map(|own| Beside::of(observations, &last.chain, own)).collect(),
+        beside: rms
+            .iter()
+            .skip(1)
+            .map(|own| Beside::of(observations, &last.chain, own, most(own.unit)))
+            .collect(),
+        ladder,
     })
 }
 

@@ -59,13 +59,14 @@ pub struct Beside {
 }
 
 impl Beside {
-    pub(super) fn of(observations: &Observations, chain: &Chain, own: &BeforeAfter) -> Self {
+    /// Held-out figures larger than `most` are left out.
+    pub(super) fn of(observations: &Observations, chain: &Chain, own: &BeforeAfter, most: f64) -> Self {
         Self {
             observed: observables_of(observations, chain, own.unit),
             unit: own.unit,
             expected_rms: own.expected,
-            before: own.before,
-            after: own.after,
+            before: own.before.within(most),
+            after: own.after.within(most),
         }
     }
 }

@@ -137,5 +137,5 @@ pub const THRESHOLDS: &[Threshold] = &[
 ];
 
 const fn row(name: &'static str, value: f64, meaning: &'static str, source: &'static str) -> Threshold {
-    Threshold { name, value, meaning, source }
+    Threshold::new(name, value, meaning, source)
 }

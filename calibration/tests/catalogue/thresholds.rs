@@ -4,7 +4,7 @@
 
 use std::fmt::Write as _;
 
-use calibration::thresholds::{of_contests, of_misread};
+use calibration::thresholds::{of_contests, of_held_out, of_misread};
 use evidence::policy::Threshold;
 
 use crate::support::root;
@@ -39,6 +39,12 @@ fn page() -> String {
     );
     table(&mut page, of_misread());
     page.push_str(
+        "\n## Held-out data\n\n\
+         These numbers decide which of the [models](../calibration/report.md#the-models) is written, how each fold is fitted, and which \
+         figure is too large to be printed.\n\n",
+    );
+    table(&mut page, of_held_out());
+    page.push_str(
         "\n## The contest of effects\n\n\
          These numbers decide which explanation of a residual is told. `name_margin` grows where a study asks for fewer false \
          alarms: `[search] false_alarm = 0.01` adds the logarithm of five.\n\n",
@@ -62,7 +68,8 @@ fn the_page_lists_the_numbers_that_decide() {
 
 #[test]
 fn every_number_has_a_name_of_its_own_and_a_source() {
-    let all: Vec<Threshold> = of_contests().into_iter().chain(of_misread().iter().copied()).collect();
+    let all: Vec<Threshold> =
+        of_contests().into_iter().chain([of_misread(), of_held_out()].concat()).collect();
     assert!(all.len() <= MOST, "{}", all.len());
     for (number, own) in all.iter().enumerate() {
         assert!(own.value.is_finite() && !own.meaning.is_empty() && !own.source.is_empty(), "{own:?}");

@@ -17,6 +17,7 @@ mod figures;
 mod frames;
 mod frozen;
 mod instruments;
+mod ladder;
 mod levelled;
 mod many;
 mod misread;

@@ -123,7 +123,7 @@ pub fn values(diagnosis: &Diagnosis) -> Markup {
                         }
                     }
                 }))
-                @for note in &estimates.notes { p { (words::sentence_case(note)) "." } }
+                @for note in &estimates.notes { p { (super::answer::coded(&words::sentence_case(note))) "." } }
             } @else {
                 p.caution role="note" { "The fit cannot be used, so no values are shown. Follow the steps above first." }
             }

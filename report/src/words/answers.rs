@@ -5,6 +5,7 @@ use super::causes::each_once;
 use super::columns::{self, implausible_values, misread};
 use super::effects::{chance_of_all, headline, moves, place};
 use super::frozen::fitted;
+use super::ladder::goal;
 use super::left::function_form;
 use super::numbers::{short, times};
 use super::rivals::rival;
@@ -39,6 +40,8 @@ pub struct Answers {
     pub happened: String,
     /// How sure it is; absent where nothing was found.
     pub chance: Option<String>,
+    /// Whether the specification of the study is met; absent where it states none.
+    pub goal: Option<String>,
     /// What it is, in a sentence for each effect, the largest first.
     pub what: Vec<String>,
     /// The causes that fit, of all effects, each once.
@@ -92,6 +95,7 @@ pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) -> An
             .collect::<Vec<_>>()
             .join(" "),
         chance: if usable && diagnosis.frozen.is_none() { chance_of_all(&effects, diagnosis) } else { None },
+        goal: if usable { goal(diagnosis) } else { None },
         what,
         causes,
         places: once(effects.iter().map(|effect| place(effect, diagnosis))),

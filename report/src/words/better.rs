@@ -1,6 +1,7 @@
 //! How much better the residuals become, in sentences.
 
 use super::causes::sentence_case;
+use super::ladder::{Stage, stages};
 use super::left::remaining;
 use super::numbers::{short, times};
 use calibration::diagnose::{Diagnosis, Rms, Verdict};
@@ -36,6 +37,30 @@ pub(super) fn better(diagnosis: &Diagnosis) -> String {
     all.join(" ")
 }
 
+/// Whether outliers hide what the other held-out rows say.
+pub fn hides(after: &Rms) -> bool {
+    let is_larger = |(all, kept): (f64, f64)| all > HIDDEN * kept;
+    after.held_out_rows > after.held_out_rows_kept
+        && after.held_out_rms.zip(after.held_out_rms_kept).is_some_and(is_larger)
+}
+
+/// The error of the first observable on held-out rows, from delivery on, beside the noise.
+fn by_stages(diagnosis: &Diagnosis, observed: &str, excluding: Option<&String>) -> Option<String> {
+    let unit = diagnosis.ladder.as_ref().map(|ladder| ladder.unit)?;
+    let own = stages(diagnosis, excluding.is_some());
+    let (last, others) =
+        own.split_last().filter(|(_, others)| !others.is_empty() && unit == diagnosis.unit)?;
+    let told = |stage: &Stage| format!("{} {}", short(stage.rms, unit), stage.what);
+    let before: Vec<String> = others.iter().map(told).collect();
+    let excluding = excluding.map_or_else(String::new, |own| format!(", {own}"));
+    Some(format!(
+        "On held-out data{excluding}, the `{observed}` error (RMS) is {} and {}. The noise alone is {}.",
+        before.join(", "),
+        told(last),
+        short(diagnosis.noise.expected_rms, unit)
+    ))
+}
+
 /// How much better the residuals of an observable are.
 fn of_unit(diagnosis: &Diagnosis, observed: &str, unit: SiUnit, [before, after]: [Rms; 2]) -> String {
     let size = |si: f64| format!("{} RMS", short(si, unit));
@@ -50,9 +75,12 @@ fn of_unit(diagnosis: &Diagnosis, observed: &str, unit: SiUnit, [before, after]:
     }
     let without = after.held_out_rows - after.held_out_rows_kept;
     let excluding = format!("excluding {without} outlier{}", if without == 1 { "" } else { "s" });
-    let hides = |all: f64, kept: f64| without > 0 && all > HIDDEN * kept;
-    let is_hidden =
-        after.held_out_rms.zip(after.held_out_rms_kept).is_some_and(|(all, kept)| hides(all, kept));
+    let is_hidden = hides(&after);
+    let told =
+        (unit == diagnosis.unit).then(|| by_stages(diagnosis, observed, is_hidden.then_some(&excluding)));
+    if let Some(told) = told.flatten() {
+        return told;
+    }
     if diagnosis.effects.is_empty() {
         let (own, held_out, excluding) = match is_hidden {
             true => (after.rms_kept, after.held_out_rms_kept, format!(", {excluding}")),

@@ -1,6 +1,7 @@
 //! Cautions in words.
 
 use super::columns;
+use super::ladder::{model, size};
 use super::misreadings::{misread, strayed};
 use super::numbers::{reading, short, times, told, told_in};
 use calibration::diagnose::{Caution, LengthsOff, Moved, TwoPlaces, Uneven};
@@ -12,11 +13,15 @@ pub fn caution(caution: &Caution) -> String {
     match caution {
         Caution::WorseHeldOut { before, after, unit } => format!(
             "The effects increase the error on held-out data from {} to {}. Do not correct with them.",
-            short(*before, *unit),
-            short(*after, *unit)
+            size(*before, *unit),
+            size(*after, *unit)
         ),
         Caution::HardlyMoreNumbers { numbers, unknowns } => format!(
             "{numbers} measured numbers for {unknowns} unknowns are too few to check the noise or the errors. Measure more rows."
+        ),
+        Caution::ForetoldBadly { fitted, held_out, unit } if !held_out.is_finite() => format!(
+            "Held-out data miss by more than the measured region is wide, fitted data by {}. Single rows decide the result. Measure more rows.",
+            short(*fitted, *unit)
         ),
         Caution::ForetoldBadly { fitted, held_out, unit } => format!(
             "Held-out data miss by {}, fitted data by {} ({}). Single rows decide the result. Measure more rows.",
@@ -24,14 +29,35 @@ pub fn caution(caution: &Caution) -> String {
             short(*fitted, *unit),
             times(held_out / fitted)
         ),
+        Caution::SimplerPredictsBetter { model: simplest, simpler, declared, unit, spared, written } => {
+            let others = match spared.len() {
+                1 => "other error".to_owned(),
+                count => format!("other {count} errors"),
+            };
+            let act = if *written {
+                format!(
+                    "The {others} were not estimated. To estimate them, measure more rows, or name them under `[report] wanted`."
+                )
+            } else {
+                format!(
+                    "These rows are too few or too alike to gain from the {others}. Fix them at zero, or measure more rows."
+                )
+            };
+            format!(
+                "On held-out data, {} ({}) predicts better than all declared errors ({}). {act}",
+                model(*simplest),
+                size(*simpler, *unit),
+                size(*declared, *unit)
+            )
+        }
         Caution::NotConfirmed { effects, p_value, before, after, unit } => {
             let goes = if after > before { "increases" } else { "hardly changes" };
             format!(
                 "{} appeared (p = {p_value:.3}), but it {goes} the error on held-out data ({} without, {} with). The model was not changed. \
                  Measure more rows to decide.",
                 effects.join(", "),
-                short(*before, *unit),
-                short(*after, *unit)
+                size(*before, *unit),
+                size(*after, *unit)
             )
         }
         Caution::FollowsOrder { effects, remembers, setups, column } => {
@@ -57,8 +83,8 @@ pub fn caution(caution: &Caution) -> String {
         }
         Caution::WorseElsewhere { before, after, unit } => format!(
             "In unmeasured regions of the joints the effects increase the error from {} to {}. Correct only within the measured range.",
-            short(*before, *unit),
-            short(*after, *unit)
+            size(*before, *unit),
+            size(*after, *unit)
         ),
         Caution::FewBehindAnEffect { effect, observations } => {
             format!(

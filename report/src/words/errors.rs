@@ -1,4 +1,4 @@
-//! Declared errors in words: one table, one unit for each kind of quantity, natural order of names.
+//! Declared errors in words: one table, one unit for each kind of quantity, those that the study wants first, then by size.
 
 use super::numbers::{self, Reading};
 use calibration::diagnose::{AtZero, BesideFunction, Diagnosis, ErrorFound, Estimable};
@@ -15,6 +15,8 @@ pub struct EstimateLine {
     pub found: bool,
     /// Whether it is a combination.
     pub combined: bool,
+    /// Whether the study wants it first.
+    pub wanted: bool,
 }
 
 /// The table of estimates, and what these data do not determine.
@@ -32,11 +34,8 @@ pub fn estimates(diagnosis: &Diagnosis) -> Estimates {
     let units = Units::of(diagnosis);
     let effects: Vec<&String> =
         diagnosis.effects.iter().flat_map(|effect| effect.coefficients.keys()).collect();
-    let mut lines: Vec<EstimateLine> = diagnosis
-        .errors
-        .iter()
-        .filter(|error| error.separable)
-        .map(|error| EstimateLine {
+    let single = diagnosis.errors.iter().filter(|error| error.separable).map(|error| {
+        let line = EstimateLine {
             what: error.name.clone(),
             estimate: match error.standard_uncertainty {
                 Some(sigma) => {
@@ -46,21 +45,36 @@ pub fn estimates(diagnosis: &Diagnosis) -> Estimates {
             },
             found: effects.contains(&&error.name),
             combined: false,
-        })
-        .collect();
-    lines.extend(diagnosis.estimable.iter().map(|estimable| EstimateLine {
-        what: combination(estimable),
-        estimate: with_causes(
-            estimable.value,
-            estimable.standard_uncertainty,
-            estimable.moves_by_cause,
-            &units.reading(estimable.unit),
-        ),
-        found: false,
-        combined: true,
-    }));
-    lines.sort_by_key(|a| (a.combined, natural(&a.what)));
+            wanted: diagnosis.wanted.contains(&error.name),
+        };
+        (place(diagnosis, [error.name.as_str()].into_iter()), error.over_noise, line)
+    });
+    let combined = diagnosis.estimable.iter().map(|estimable| {
+        let names = || estimable.combination.iter().map(|part| part.error.as_str());
+        let line = EstimateLine {
+            what: combination(estimable),
+            estimate: with_causes(
+                estimable.value,
+                estimable.standard_uncertainty,
+                estimable.moves_by_cause,
+                &units.reading(estimable.unit),
+            ),
+            found: false,
+            combined: true,
+            wanted: names().any(|name| diagnosis.wanted.iter().any(|own| own == name)),
+        };
+        (place(diagnosis, names()), estimable.over_noise, line)
+    });
+    let mut lines: Vec<(usize, f64, EstimateLine)> = single.chain(combined).collect();
+    lines.sort_by(|one, other| one.0.cmp(&other.0).then(other.1.total_cmp(&one.1)));
+    let lines = lines.into_iter().map(|(_, _, line)| line).collect();
     Estimates { lines, notes: notes(diagnosis) }
+}
+
+/// Where the first of some errors that the study wants stands among those; behind all of them where it wants none.
+fn place<'a>(diagnosis: &Diagnosis, names: impl Iterator<Item = &'a str>) -> usize {
+    let own = names.filter_map(|name| diagnosis.wanted.iter().position(|own| own == name));
+    own.min().unwrap_or(diagnosis.wanted.len())
 }
 
 fn with_causes(value: f64, uncertainty: f64, moves: Option<[f64; 2]>, reading: &Reading) -> String {
@@ -72,7 +86,8 @@ fn with_causes(value: f64, uncertainty: f64, moves: Option<[f64; 2]>, reading: &
 
 /// What these data do not determine.
 fn notes(diagnosis: &Diagnosis) -> Vec<String> {
-    let mut notes = Vec::new();
+    let mut notes = still(diagnosis);
+    notes.extend(held(diagnosis));
     let errors = diagnosis.errors.iter().filter_map(|error| error.moves_by_cause);
     let combinations = diagnosis.estimable.iter().filter_map(|estimable| estimable.moves_by_cause);
     if errors.chain(combinations).next().is_some() {
@@ -94,6 +109,23 @@ fn notes(diagnosis: &Diagnosis) -> Vec<String> {
     }
     notes.extend(not_shown(diagnosis));
     notes
+}
+
+/// The errors that the written model does without.
+fn held(diagnosis: &Diagnosis) -> Option<String> {
+    let ladder = diagnosis.ladder.as_ref()?;
+    let held: Vec<String> = ladder.above(ladder.written).into_iter().map(str::to_owned).collect();
+    (!held.is_empty()).then(|| {
+        format!("not estimated, since a simpler model predicts better: {}", sorted(&held).join(", "))
+    })
+}
+
+/// Columns whose readings do not change: what they would show these data cannot.
+fn still(diagnosis: &Diagnosis) -> Vec<String> {
+    let rows = diagnosis.observations.rows;
+    let is_still = |range: [f64; 2]| rows > 1 && range[0] == range[1];
+    let readings = diagnosis.instrument.readings.iter().filter(|reading| is_still(reading.range));
+    readings.map(|reading| format!("`{}` is the same in all rows", reading.name)).collect()
 }
 
 /// `index is the value at air = 0. These data have 18.2 to 24.1`
@@ -125,6 +157,14 @@ pub fn not_shown(diagnosis: &Diagnosis) -> Option<String> {
     let hidden: Vec<String> =
         diagnosis.errors.iter().filter(|error| !error.shown).map(|error| error.name.clone()).collect();
     (!hidden.is_empty()).then(|| format!("not shown by these data: {}", sorted(&hidden).join(", ")))
+}
+
+/// The errors that the study wants and these data do not show, in a sentence; `None` if they show all.
+#[must_use]
+pub fn wanted_not_shown(diagnosis: &Diagnosis) -> Option<String> {
+    let hidden = |name: &&String| diagnosis.errors.iter().any(|error| error.name == **name && !error.shown);
+    let hidden: Vec<String> = diagnosis.wanted.iter().filter(hidden).cloned().collect();
+    (!hidden.is_empty()).then(|| format!("Not shown by these data: {}.", hidden.join(", ")))
 }
 
 /// `da1 + dtheta_x3`, `a − 1/2·b`
@@ -221,6 +261,7 @@ mod tests {
             value: 0.0,
             standard_uncertainty: 0.0,
             moves_by_cause: None,
+            over_noise: 0.0,
             unit: SiUnit::RAD,
             degrees_of_freedom: 1.0,
         };

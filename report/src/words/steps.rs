@@ -103,6 +103,7 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) 
             format!("Likeliest: {}. {}{more}", cause(&effect.causes[0]), effect.causes[0].check),
         ));
     }
+    steps.extend(hold(diagnosis));
     steps.extend(measure(diagnosis));
     if let Some(offer) = diagnosis.remaining.as_ref().and_then(|left| left.offer.as_ref()) {
         let lines = offer.trim_end().to_owned();
@@ -209,6 +210,20 @@ fn correct(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) -> Step {
 fn calibrate(command: &str) -> Option<String> {
     let (_, arguments) = command.split_once(' ')?;
     arguments.starts_with("calibrate ").then(|| format!("trueaxis {arguments}"))
+}
+
+/// The lines that hold errors at zero, where a simpler model predicts as well.
+fn hold(diagnosis: &Diagnosis) -> Option<Step> {
+    let spared = diagnosis.cautions.iter().find_map(|caution| match caution {
+        Caution::SimplerPredictsBetter { spared, written: false, .. } => Some(spared),
+        _ => None,
+    })?;
+    let held: Vec<String> = spared.iter().map(|name| format!("{name} = 0")).collect();
+    Some(Step {
+        title: "To use the simpler model".to_owned(),
+        text: "Write this line under `[fit]` in the study, then calibrate again:".to_owned(),
+        command: Some(format!("fix = {{ {} }}", held.join(", "))),
+    })
 }
 
 /// Poses that would separate causes, or that none would.

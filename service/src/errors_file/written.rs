@@ -60,7 +60,10 @@ pub(crate) fn lines_of(reported: &Reported<'_>) -> Vec<(SymbolKind, String)> {
 fn lines(found: &[ErrorFound], chain: &Chain, values: &[f64]) -> Vec<(SymbolKind, String)> {
     let width = found.iter().map(|error| key(&error.name).chars().count()).max().unwrap_or_default();
     let mut lines = Vec::new();
-    for error in found {
+    // In the order of the declaration, whatever a report tells first.
+    let mut found: Vec<&ErrorFound> = found.iter().collect();
+    found.sort_by_key(|error| chain.find_symbol(&error.name));
+    for error in found.iter().copied() {
         let symbol = chain.find_symbol(&error.name).map(|id| chain.symbol(id));
         // The unit is that of the language's quantity, which is what reads the file again.
         let quantity = symbol.map_or(Quantity::Number, |symbol| symbol.quantity);
@@ -228,6 +231,7 @@ mod tests {
                     standard_uncertainty: Some(1e-6),
                     moves_by_cause: None,
                     degrees_of_freedom: None,
+                    over_noise: 0.0,
                     unit: SiUnit::RAD.per(SiUnit::KELVIN),
                     separable: true,
                     shown: true,

@@ -64,7 +64,7 @@ pub struct Part {
     pub ratio: String,
 }
 
-/// Every estimated error or constant: first those that the study wants, then by what they move the observations.
+/// Every estimated error or constant: first those that the study wants, then in the order of the fit.
 pub(super) fn errors(whole: &Context<'_>, fitted: &Fitted, by_cause: &ByCause) -> Vec<ErrorFound> {
     let fit = &fitted.fit;
     let wanted = &whole.request.plan.asked.wanted;
@@ -91,7 +91,7 @@ pub(super) fn errors(whole: &Context<'_>, fitted: &Fitted, by_cause: &ByCause) -
             (place, found)
         })
         .collect();
-    errors.sort_by(|(a, one), (b, other)| a.cmp(b).then(other.over_noise.total_cmp(&one.over_noise)));
+    errors.sort_by_key(|(place, _)| *place);
     errors.into_iter().map(|(_, found)| found).collect()
 }
 

@@ -125,7 +125,7 @@ pub struct Diagnosis {
     /// The errors that the study wants first, in their order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub wanted: Vec<String>,
-    /// The declared and the new errors: those that are wanted, then the others by what they move the observations.
+    /// The declared and the new errors: those that are wanted, then the others in their order.
     pub errors: Vec<ErrorFound>,
     /// What each input has part in of the uncertainties, where the study states those of the reference.
     #[serde(skip_serializing_if = "Vec::is_empty")]

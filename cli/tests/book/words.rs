@@ -183,7 +183,8 @@ fn a_term_is_defined_where_it_first_stands() {
             if first_place(own, term).is_some_and(|at| at < bold) {
                 wrong.push(format!("lesson {lesson}: {term} stands before it is defined"));
             }
-            for (name, before) in [&lessons, &notebooks, &told].into_iter().flat_map(|all| &all[..lesson - 1]) {
+            for (name, before) in [&lessons, &notebooks, &told].into_iter().flat_map(|all| &all[..lesson - 1])
+            {
                 if first_place(before, term).is_some() {
                     wrong.push(format!("{name}: {term} stands there, and is defined in lesson {lesson}"));
                 }

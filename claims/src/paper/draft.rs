@@ -264,7 +264,8 @@ impl Drawn<'_> {
             self.table,
             "{} = {}  # defined in line {}",
             key(&name),
-            quoted(&formula),
+            // Braces say that letters are printed symbols.
+            quoted(&if formula.contains(['\\', '{']) { formula.clone() } else { format!("{{{formula}}}") }),
             equation.line
         );
         Ok(())

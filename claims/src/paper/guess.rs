@@ -247,9 +247,9 @@ fn entries_of(
     matrix: latex::PrintedMatrix,
 ) -> Option<Guess> {
     let printed = Entries::read(chain, matrix, Order::UpTo(order)).ok()?;
-    // Zeros agree with anything.
+    // In a matrix zeros agree with anything.
     let said = |printed: &&PrintedVector| !printed.components[0].value.above.is_zero();
-    let entries = printed.iter().filter(said).count();
+    let entries = if key == "shows" { printed.len() } else { printed.iter().filter(said).count() };
     let is_turned = printed.iter().any(|printed| printed.turned);
     let labels = (1..=printed.len()).map(|at| at.to_string()).collect();
     let claim = Entries { of, order: Order::UpTo(order), kept: kept.to_vec(), labels, printed };

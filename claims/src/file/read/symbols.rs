@@ -21,11 +21,15 @@ impl Reader<'_> {
             match meaning.get_ref() {
                 Meant::Screw(parts) => self.screw(symbol, parts),
                 Meant::Text(text) if text.contains(['\\', '{']) => {
-                    in_latex.push((symbol, text, meaning.span()))
+                    in_latex.push((symbol, text, meaning.span()));
                 }
                 Meant::Text(text) if text.trim_start().starts_with('[') => {
                     let read = program::read_matrix(text, &self.symbols);
                     self.define(symbol, text, meaning.span(), read);
+                }
+                // `(a, b, c)^T`. A word that nobody declared is a misspelt name, and no product of letters.
+                Meant::Text(text) if syntax::parse_amount(text).is_err() => {
+                    in_latex.push((symbol, text, meaning.span()));
                 }
                 Meant::Text(text) => self.amount(symbol, text, meaning.span(), &mut printed),
             }
@@ -38,6 +42,10 @@ impl Reader<'_> {
                 .partition(|(_, text, _)| latex::read_matrix(text, &self.symbols.reading(&[text])).is_ok());
             for (symbol, text, place) in if readable.is_empty() { &rest } else { &readable } {
                 let read = latex::read_matrix(text, &self.symbols.reading(&[text]));
+                if read.is_err() && !text.contains(['\\', '{']) {
+                    self.amount(symbol, text, place.clone(), &mut printed);
+                    continue;
+                }
                 self.define(symbol, text, place.clone(), read);
             }
             in_latex = if readable.is_empty() { Vec::new() } else { rest };
@@ -46,13 +54,7 @@ impl Reader<'_> {
     }
 
     fn amount(&mut self, symbol: &Spanned<String>, text: &str, whole: Place, printed: &mut Chain) {
-        let parsed = syntax::parse_amount(text);
-        let is_amount = parsed.as_ref().is_ok_and(|amount| lower(self.chain, amount).is_ok());
-        // `(a, b, c)^T`, or an amount in printed symbols.
-        if !is_amount && let Ok(matrix) = latex::read_matrix(text, &self.symbols.reading(&[text])) {
-            return self.define(symbol, text, whole, Ok(matrix));
-        }
-        let amount = match parsed {
+        let amount = match syntax::parse_amount(text) {
             Ok(amount) => amount,
             Err(mistakes) => {
                 for mistake in &mistakes {

@@ -2,11 +2,13 @@
 
 use std::path::PathBuf;
 
-use claims::checker::{Claim, Verdict};
+use claims::checker::entries::{Entries, EntriesOf};
+use claims::checker::{Checker, Claim, Rank, RankSaid, Verdict, extended, only_of};
 use claims::file::{Checked, Unread};
 use claims::show::{self, as_json, as_text, unread_as_json};
-use model_core::Mistakes;
 use model_core::escape::{self, Screen};
+use model_core::identify::{Holds, identify};
+use model_core::{Mistakes, SymbolId, SymbolKind};
 use proof::{Certificate, Declared, Refusal};
 use serde_json::{Value, json};
 use service::claims_file::ClaimsFile;
@@ -156,6 +158,16 @@ fn certify(file: &ClaimsFile, checked: &[Checked<'_>]) -> Result<String, Failure
     let declaration = &file.declaration;
     let declared =
         Declared::from_text(&declaration.text).map_err(|mistakes| declaration.mistakes(&mistakes))?;
+    let varied: Vec<SymbolId> = checked
+        .iter()
+        .filter_map(|checked| match &checked.claim.claim {
+            Claim::Entries(entries) => Some(&entries.of),
+            _ => None,
+        })
+        .filter_map(|of| if let EntriesOf::Jacobian { by, .. } = of { Some(by.clone()) } else { None })
+        .flatten()
+        .collect();
+    let declared = declared.with_changes(&varied);
     let mut certificate = Certificate::new(&declared);
     for Checked { claim, verdict } in checked {
         certificate.printed_as(&claim.texts);
@@ -167,6 +179,18 @@ fn certify(file: &ClaimsFile, checked: &[Checked<'_>]) -> Result<String, Failure
             (Claim::Equality(equality), Verdict::Equality(verdict)) => {
                 let written = certificate.equality(&claim.name, equality, verdict);
                 note_refusal(&mut certificate, &claim.name, written);
+            }
+            (Claim::Entries(entries), Verdict::Entries(_)) => {
+                let written = jacobian(&mut certificate, &declared, &claim.name, entries);
+                if let Err(why) = written {
+                    certificate.not_certified(&claim.name, &why);
+                }
+            }
+            (Claim::Rank(rank), Verdict::Rank(verdict)) if verdict.holds => {
+                let written = null_vectors(&mut certificate, &declared, rank);
+                let left =
+                    "that the other errors are independent is decided, and not proved in Coq".to_owned();
+                certificate.not_certified(&claim.name, &written.err().unwrap_or(left));
             }
             (_, Verdict::Comparison(_) | Verdict::Size(_)) => {
                 certificate
@@ -193,6 +217,62 @@ fn certify(file: &ClaimsFile, checked: &[Checked<'_>]) -> Result<String, Failure
         return Err(Failure::Input(why.to_owned()));
     }
     Ok(certificate.finish(&file.source.path.display().to_string()))
+}
+
+/// A Jacobian, column by column.
+fn jacobian(
+    certificate: &mut Certificate<'_>,
+    declared: &Declared,
+    name: &str,
+    entries: &Entries,
+) -> Result<(), String> {
+    let chain = extended(declared.chain());
+    let is_error = |id: SymbolId| chain.symbol(id).kind == SymbolKind::Error;
+    let standing = |id: SymbolId| if is_error(id) { Some(id) } else { declared.change_of(id) };
+    let columns = entries
+        .columns(&chain, standing)
+        .ok_or("certificates speak of Jacobians of points and directions, by errors and joints")?;
+    let mut checker = Checker::new(&chain);
+    for column in columns {
+        let verdict = checker.closed_form(&column.form).map_err(|error| error.to_string())?;
+        let title = format!(
+            "{name}, {} by {}",
+            chain.observable(column.observable).name,
+            chain.symbol(column.by).name
+        );
+        certificate.closed_form(&title, &column.form, &verdict).map_err(|refusal| refusal.to_string())?;
+    }
+    Ok(())
+}
+
+/// What makes a rank smaller than the number of errors: errors without influence, and combinations of others.
+fn null_vectors(certificate: &mut Certificate<'_>, declared: &Declared, rank: &Rank) -> Result<(), String> {
+    if matches!(rank.said, RankSaid::Separable(_)) {
+        return Err("that errors can be separated is decided, and not proved in Coq".to_owned());
+    }
+    let errors = &rank.errors;
+    let [observable] = rank.observables.as_slice() else {
+        return Err("certificates speak of what one observable shows".to_owned());
+    };
+    let chain = only_of(declared.chain(), errors).map_err(|error| error.to_string())?;
+    let found = identify(&chain, &[*observable]).map_err(|error| error.to_string())?;
+    if found.holds != Holds::Everywhere {
+        return Err("the answer is at the declared values of the constants".to_owned());
+    }
+    let refused = |refusal: Refusal| refusal.to_string();
+    for &error in found.invisible.iter().filter(|error| errors.contains(error)) {
+        certificate.without_influence(*observable, error).map_err(refused)?;
+    }
+    for group in &found.alike {
+        let Some((first, others)) = group.split_first() else { continue };
+        for other in others {
+            certificate.alike(*observable, first.error, other.error, &other.ratio).map_err(refused)?;
+        }
+    }
+    for dependence in &found.combinations {
+        certificate.dependent(*observable, dependence).map_err(refused)?;
+    }
+    Ok(())
 }
 
 /// A claim that cannot be certified is named in the certificate, and on the terminal, with the reason.

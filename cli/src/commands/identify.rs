@@ -101,6 +101,12 @@ fn certify(source: &Source, certified: &[Identifiability]) -> Result<String, Fai
                     certificate.alike(observable, first.error, other.error, &other.ratio).map_err(refused)?;
                 }
             }
+            for dependence in &found.combinations {
+                if let Err(refusal) = certificate.dependent(observable, dependence) {
+                    let error = &declared.chain().symbol(dependence.error).name;
+                    certificate.not_certified(error, &refusal.to_string());
+                }
+            }
         }
     }
     if certificate.is_empty() {
@@ -109,7 +115,7 @@ fn certify(source: &Source, certified: &[Identifiability]) -> Result<String, Fai
         return Err(Failure::Input(why.to_owned()));
     }
     certificate
-        .not_certified("which combinations can be estimated", "that needs more than a formula for each");
+        .not_certified("that the other errors can be told apart", "that is decided, and not proved in Coq");
     for note in certificate.notes() {
         terminal::note(format_args!("not certified: {note}"));
     }

@@ -83,10 +83,20 @@ pub const THRESHOLDS: &[Threshold] = &[
         "nats that exchanged columns are rarer than a wrong unit",
         TRIALS,
     ),
-    row("misread.order", ORDER_PRICE, "nats that a quaternion in another order is rarer than a wrong unit", PRICED),
+    row(
+        "misread.order",
+        ORDER_PRICE,
+        "nats that a quaternion in another order is rarer than a wrong unit",
+        PRICED,
+    ),
     row("misread.states", STATES_PRICE, "nats that rows of two kinds are rarer than a wrong unit", PRICED),
     row("misread.states_margin", STATES_MARGIN, "nats by which rows of two kinds must win", PRICED),
-    row("misread.states_ratio", STATES_RATIO, "share of the residual that rows of two kinds may leave", PRICED),
+    row(
+        "misread.states_ratio",
+        STATES_RATIO,
+        "share of the residual that rows of two kinds may leave",
+        PRICED,
+    ),
     row("misread.states_apart", STATES_APART, "how far the kinds are apart, over what is left", PRICED),
     row("misread.states_fewest", STATES_FEWEST_SHARE, "least share of the rows in the smaller kind", PRICED),
     row(
@@ -95,7 +105,12 @@ pub const THRESHOLDS: &[Threshold] = &[
         "changes of kind along rows, a joint or a column, over those by chance",
         PRICED,
     ),
-    row("misread.rough", ROUGH_SHARE, "share of what was measured that one mistake must leave for two to be asked", PRICED),
+    row(
+        "misread.rough",
+        ROUGH_SHARE,
+        "share of what was measured that one mistake must leave for two to be asked",
+        PRICED,
+    ),
     row("misread.packed", PACKED_PRICE, "nats that packed digits are rarer than a wrong unit", TRIALS),
     row(
         "misread.zenith",

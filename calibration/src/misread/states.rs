@@ -177,10 +177,11 @@ impl Rows<'_> {
             + 0.5 * (more as f64 + 1.0) * rows.ln();
         let width = width(left);
         let free = (numbers - (as_read.rank + more) as f64).max(1.0);
-        let total =
-            free / numbers * (self.jacobian + log_density(left, width)) - price - as_read.penalty;
-        let norms: Vec<f64> =
-            left.chunks(stride).map(|row| row.iter().map(|value| value * value).sum::<f64>().sqrt()).collect();
+        let total = free / numbers * (self.jacobian + log_density(left, width)) - price - as_read.penalty;
+        let norms: Vec<f64> = left
+            .chunks(stride)
+            .map(|row| row.iter().map(|value| value * value).sum::<f64>().sqrt())
+            .collect();
         let score = Score {
             total,
             scale: (width.ln() - self.jacobian / numbers).exp(),
@@ -193,7 +194,8 @@ impl Rows<'_> {
     fn hypothesis(&self, candidate: &Candidate, parted: &Parted, price: f64) -> Hypothesis {
         let symbol = |id: &SymbolId| self.plan.chain.symbol(*id);
         let number = |row: usize| self.observations.row_numbers.get(row).unwrap_or_default();
-        let rows = parted.is_other.iter().enumerate().filter(|(_, other)| **other).map(|(row, _)| number(row));
+        let rows =
+            parted.is_other.iter().enumerate().filter(|(_, other)| **other).map(|(row, _)| number(row));
         let reading = Reading::TwoStates {
             errors: candidate.errors.iter().map(|id| symbol(id).name.clone()).collect(),
             // The residual falls where the error rises to what it is.
@@ -217,12 +219,7 @@ fn basis(matrix: &DMatrix<f64>) -> DMatrix<f64> {
 }
 
 /// Rows in two kinds that differ along some columns; the smaller kind is the other one.
-fn part(
-    columns: &DMatrix<f64>,
-    basis: &DMatrix<f64>,
-    left: &DVector<f64>,
-    stride: usize,
-) -> Option<Parted> {
+fn part(columns: &DMatrix<f64>, basis: &DMatrix<f64>, left: &DVector<f64>, stride: usize) -> Option<Parted> {
     let rows = left.len() / stride;
     let mut is_other = first_guess(columns, left, stride)?;
     let mut last = None;

@@ -127,8 +127,7 @@ impl<'a> Trial<'a> {
             let observations = read(self.plan, self.sample, &hypothesis.changes)?;
             let starts = [self.plan.fit.start.as_slice(), &of[0].values, &of[1].values];
             let from = |start: &[f64]| self.score(&observations, start, SCREENED_STEPS, Some(&hypothesis));
-            let score =
-                starts.into_iter().filter_map(from).max_by(|a, b| a.total.total_cmp(&b.total))?;
+            let score = starts.into_iter().filter_map(from).max_by(|a, b| a.total.total_cmp(&b.total))?;
             Some(Tried { hypothesis, score, observations })
         };
         parallel::each_of(pairs, tried).into_iter().flatten().collect()

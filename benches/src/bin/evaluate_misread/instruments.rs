@@ -287,7 +287,8 @@ impl Instrument {
         let [xy, xz, yz] = [m[0][1] + m[1][0], m[0][2] + m[2][0], m[1][2] + m[2][1]];
         let [wx, wy, wz] = [m[1][2] - m[2][1], m[2][0] - m[0][2], m[0][1] - m[1][0]];
         // The row of products with the largest component is the most exact.
-        let rows = [[four[0], wx, wy, wz], [wx, four[1], xy, xz], [wy, xy, four[2], yz], [wz, xz, yz, four[3]]];
+        let rows =
+            [[four[0], wx, wy, wz], [wx, four[1], xy, xz], [wy, xy, four[2], yz], [wz, xz, yz, four[3]]];
         let largest = (1..4).fold(0, |best, at| if four[at] > four[best] { at } else { best });
         rows[largest].iter().map(|value| value / (2.0 * four[largest].sqrt())).collect()
     }

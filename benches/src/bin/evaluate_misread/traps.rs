@@ -295,9 +295,7 @@ pub const TRAPS: &[Trap] = &[
                 let range_m =
                     data.observed.iter().map(|column| column.numbers[row].powi(2)).sum::<f64>().sqrt();
                 if random.even() < 0.4 {
-                    data.observed
-                        .iter_mut()
-                        .for_each(|column| column.numbers[row] *= 1.0 + 0.0344 / range_m);
+                    data.observed.iter_mut().for_each(|column| column.numbers[row] *= 1.0 + 0.0344 / range_m);
                 }
             }
             vec!["two kinds: zero".to_owned()]

@@ -19,8 +19,9 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
 }
 
 fn hypothesis(tried: &Tried<'_>, one: &SampledColumn, other: &SampledColumn) -> Hypothesis {
-    let reads =
-        |column: &SampledColumn, from: &SampledColumn| line(tried.plan, column, &from.name, beside_unit(from, []));
+    let reads = |column: &SampledColumn, from: &SampledColumn| {
+        line(tried.plan, column, &from.name, beside_unit(from, []))
+    };
     Hypothesis {
         reading: Reading::Exchanged { columns: [one.name.clone(), other.name.clone()] },
         changes: vec![

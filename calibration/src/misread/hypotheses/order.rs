@@ -29,12 +29,7 @@ fn of_source(tried: &Tried<'_>, source: usize) -> Vec<Hypothesis> {
     }
 }
 
-fn ordered(
-    tried: &Tried<'_>,
-    own: &[&SampledColumn],
-    order: &'static str,
-    from: [usize; 4],
-) -> Hypothesis {
+fn ordered(tried: &Tried<'_>, own: &[&SampledColumn], order: &'static str, from: [usize; 4]) -> Hypothesis {
     let pairs = || own.iter().zip(from).map(|(column, from)| (*column, own[from]));
     Hypothesis {
         reading: Reading::Order { columns: names(own), order },

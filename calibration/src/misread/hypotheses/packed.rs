@@ -16,9 +16,7 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
         changes: set.iter().map(|column| Changed::all(column.place, Change::Notation(notation))).collect(),
         lines: set
             .iter()
-            .map(|column| {
-                line(tried.plan, column, &column.name, vec![("notation", quoted(notation.name()))])
-            })
+            .map(|column| line(tried.plan, column, &column.name, vec![("notation", quoted(notation.name()))]))
             .collect(),
         price: PACKED_PRICE,
         // Of a hundred pairs of digits sixty are below 60.

@@ -16,10 +16,7 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
             all.push(Hypothesis {
                 reading: Reading::Shifted { columns: names(set), by },
                 changes: set.iter().map(|column| Changed::all(column.place, Change::Shift(by))).collect(),
-                lines: set
-                    .iter()
-                    .map(|column| line(tried.plan, column, &column.name, how(column)))
-                    .collect(),
+                lines: set.iter().map(|column| line(tried.plan, column, &column.name, how(column))).collect(),
                 price: SHIFTED_PRICE,
                 digits: 0.0,
             });

@@ -105,7 +105,9 @@ fn explains(trial: &Trial<'_>, tried: &Tried, as_read: &Score, rounding: f64) ->
         }
     };
     let margin = if matches!(hypothesis.reading, Reading::TwoStates { .. }) { STATES_MARGIN } else { MARGIN };
-    score.total - as_read.total >= margin && is_gross
+    // What needs an error that is too large to be one explains nothing, unless the study's own reading needs one too.
+    let is_plausible = !trial.is_beyond(score) || trial.is_beyond(as_read);
+    score.total - as_read.total >= margin && is_gross && is_plausible
 }
 
 /// The errors of a plan that are estimated.

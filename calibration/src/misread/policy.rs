@@ -29,15 +29,19 @@ pub(super) const COUNTS_DEGREES: f64 = 4.0 * 360.0;
 pub(super) const TURNED_PRICE: f64 = 1.0;
 /// And that it holds of some rows alone.
 pub(super) const FROM_ROW_PRICE: f64 = 3.0;
-/// Rows are of two kinds when that wins by so much, leaves at most this share of the residual, and parts the rows by so many times what is
-/// left; the smaller kind has at least this share of them.
+/// Rows are of two kinds when that wins by so much, leaves at most this share of the residual, and parts the rows by so many times what is left
+/// along the difference; the smaller kind has at least this share of them.
 pub(super) const STATES_PRICE: f64 = 1.0;
 pub(super) const STATES_MARGIN: f64 = 10.0;
 pub(super) const STATES_RATIO: f64 = 0.6;
 pub(super) const STATES_APART: f64 = 6.0;
 pub(super) const STATES_FEWEST_SHARE: f64 = 0.1;
+/// Of fewer rows a wave looks like two kinds by chance.
+pub(super) const STATES_ROWS: f64 = 20.0;
 /// The kinds follow no order, joint or column: they change at least at this share of the places where they would by chance.
 pub(super) const STATES_SCATTERED: f64 = 0.5;
+/// An instrument is calibrated over this much of a joint, rad; a unit by which it moved less is rarer by the logarithm of the share.
+pub(super) const TRAVEL_RAD: f64 = PI / 3.0;
 /// Two mistakes at once are asked where the residual is more than this share of what was measured, or an error is beyond its limit.
 pub(super) const ROUGH_SHARE: f64 = 0.01;
 /// An axis is about so far from where the declaration puts it, rad; lengths and tools, as shares of the reach.
@@ -54,8 +58,8 @@ pub(super) const MOST_RESIDUAL_SHARE: f64 = 0.03;
 pub(super) const FITTED: usize = 9;
 pub(super) const PARTS: usize = 3;
 pub(super) const SCREENED_STEPS: usize = 4;
-/// Single mistakes of which pairs are tried.
-pub(super) const PAIRED: usize = 30;
+/// Single mistakes, the best first, beside which a second one is tried.
+pub(super) const PAIRED: usize = 6;
 
 const TRIALS: &str =
     "402 clean and 190 misread simulated studies of eight instruments, thresholds moved once between halves";
@@ -97,7 +101,13 @@ pub const THRESHOLDS: &[Threshold] = &[
         "share of the residual that rows of two kinds may leave",
         PRICED,
     ),
-    row("misread.states_apart", STATES_APART, "how far the kinds are apart, over what is left", PRICED),
+    row(
+        "misread.states_apart",
+        STATES_APART,
+        "how far the kinds are apart, over what is left along the difference",
+        PRICED,
+    ),
+    row("misread.states_rows", STATES_ROWS, "rows at least that are parted into two kinds", PRICED),
     row("misread.states_fewest", STATES_FEWEST_SHARE, "least share of the rows in the smaller kind", PRICED),
     row(
         "misread.states_scattered",
@@ -105,6 +115,7 @@ pub const THRESHOLDS: &[Threshold] = &[
         "changes of kind along rows, a joint or a column, over those by chance",
         PRICED,
     ),
+    row("misread.travel_rad", TRAVEL_RAD, "travel of a joint below which a unit is rarer", ASKED),
     row(
         "misread.rough",
         ROUGH_SHARE,

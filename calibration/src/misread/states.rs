@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::estimated;
 use super::hypotheses::{Hypothesis, Reading};
-use super::policy::{RARE, STATES_APART, STATES_FEWEST_SHARE, STATES_PRICE, STATES_SCATTERED};
+use super::policy::{RARE, STATES_APART, STATES_FEWEST_SHARE, STATES_PRICE, STATES_ROWS, STATES_SCATTERED};
 use super::score::{Score, log_density, trimmed, width};
 use fit::{Model, residuals};
 use observe::Observations;
@@ -22,9 +22,6 @@ const ROUNDS: usize = 30;
 
 /// Singular values below this share of the largest are rounding.
 const ROUNDING: f64 = 1e-9;
-
-/// Rows that have kinds at all.
-const FEWEST: usize = 10;
 
 /// The rows of a sample with all that says which kind each could be.
 pub(super) struct Rows<'a> {
@@ -56,7 +53,7 @@ impl Rows<'_> {
     pub fn parted(&self, as_read: &Score) -> Option<(Hypothesis, Score)> {
         let [series] = &self.observations.poses.series[..] else { return None };
         let (rows, stride) = (self.observations.rows(), series.measure.components());
-        if rows < FEWEST {
+        if (rows as f64) < STATES_ROWS {
             return None;
         }
         let residual = DVector::from_vec(self.residuals(&as_read.values)?);
@@ -70,12 +67,8 @@ impl Rows<'_> {
             let parted = part(&candidate.columns, &basis, &left, stride)?;
             let few = parted.is_other.iter().filter(|other| **other).count();
             let share = few as f64 / rows as f64;
-            let is_apart = || {
-                let apart = &candidate.columns * &parted.by;
-                let rms = (apart.norm_squared() / rows as f64).sqrt();
-                rms >= STATES_APART * width(parted.left.as_slice())
-            };
-            if share < STATES_FEWEST_SHARE || !is_apart() || !self.is_scattered(&parted.is_other, few) {
+            let is_apart = parted.spread(&candidate.columns, stride) * STATES_APART <= 1.0;
+            if share < STATES_FEWEST_SHARE || !is_apart || !self.is_scattered(&parted.is_other, few) {
                 return None;
             }
             let scored = self.scored(as_read, &parted, stride, candidate.errors.len(), share, number)?;
@@ -208,6 +201,23 @@ impl Rows<'_> {
     }
 }
 
+impl Parted {
+    /// How far rows of one kind spread along the difference of the kinds, over that difference: a third of it where nothing parts them.
+    fn spread(&self, columns: &DMatrix<f64>, stride: usize) -> f64 {
+        let apart = columns * &self.by;
+        let (mut along, mut whole) = (0.0, 0.0);
+        for row in 0..self.is_other.len() {
+            let (own, left) = (apart.rows(row * stride, stride), self.left.rows(row * stride, stride));
+            let square = own.norm_squared();
+            if square > 0.0 {
+                along += own.dot(&left).powi(2) / square;
+                whole += square;
+            }
+        }
+        (along / whole).sqrt()
+    }
+}
+
 /// An orthonormal basis of what the columns of a matrix span.
 fn basis(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let svd = matrix.clone().svd(true, false);
@@ -264,11 +274,15 @@ fn first_guess(columns: &DMatrix<f64>, left: &DVector<f64>, stride: usize) -> Op
         svd.solve(&left.rows(row * stride, stride).into_owned(), 1e-3 * columns.amax()).ok()
     };
     let said: Vec<DVector<f64>> = (0..rows).map(alone).collect::<Option<_>>()?;
-    let middle = said.iter().sum::<DVector<f64>>() / rows as f64;
+    // A row that the difference hardly moves says little of it.
+    let weights: Vec<f64> = (0..rows).map(|row| columns.rows(row * stride, stride).norm_squared()).collect();
+    let whole: f64 = weights.iter().sum();
+    let weighted = || said.iter().zip(&weights);
+    let middle = weighted().map(|(own, weight)| own * *weight).sum::<DVector<f64>>() / whole;
     let mut spread = DMatrix::zeros(middle.len(), middle.len());
-    for own in &said {
+    for (own, weight) in weighted() {
         let off = own - &middle;
-        spread += &off * off.transpose();
+        spread += *weight * &off * off.transpose();
     }
     let eigen = SymmetricEigen::new(spread);
     let along = eigen.eigenvectors.column(eigen.eigenvalues.imax()).into_owned();
@@ -276,13 +290,13 @@ fn first_guess(columns: &DMatrix<f64>, left: &DVector<f64>, stride: usize) -> Op
         said.iter().enumerate().map(|(row, own)| ((own - &middle).dot(&along), row)).collect();
     at.sort_by(|one, other| one.0.total_cmp(&other.0));
     // Most of the variance lies between the two parts.
-    let all: f64 = at.iter().map(|(value, _)| value).sum();
-    let mut below = 0.0;
+    let all: f64 = at.iter().map(|(value, row)| value * weights[*row]).sum();
+    let (mut below, mut few) = (0.0, 0.0);
     let mut best = (f64::NEG_INFINITY, 0);
-    for (number, (value, _)) in at.iter().enumerate().take(rows - 1) {
-        below += value;
-        let (few, many) = ((number + 1) as f64, (rows - number - 1) as f64);
-        let between = below * below / few + (all - below) * (all - below) / many;
+    for (number, (value, row)) in at.iter().enumerate().take(rows - 1) {
+        below += value * weights[*row];
+        few += weights[*row];
+        let between = below * below / few + (all - below) * (all - below) / (whole - few);
         if between > best.0 {
             best = (between, number + 1);
         }

@@ -57,6 +57,11 @@ impl<'a> Trial<'a> {
         [hypothesis.changes.iter().any(is_joint), hypothesis.changes.iter().all(is_joint)]
     }
 
+    /// Whether a reading needs an error that is too large to be one.
+    pub fn is_beyond(&self, score: &Score) -> bool {
+        self.priors.is_beyond(&score.values)
+    }
+
     /// The score of the study's own reading. It alone is worth other starts: most other readings are wrong and end far off.
     pub fn as_read(&self) -> Option<Score> {
         let options = FitOptions { other_starts: true, ..self.options.clone() };
@@ -86,14 +91,13 @@ impl<'a> Trial<'a> {
             all.into_iter().filter_map(|hypothesis| self.screened(hypothesis, as_read)).collect();
         screened.extend(self.of_rows(&screened, as_read));
         best_first(&mut screened);
-        let pairs_of: Vec<Tried> = screened.iter().take(PAIRED).cloned().collect();
-        let mut finalists = self.to_the_end(screened);
+        let mut finalists = self.to_the_end(screened.iter().take(FITTED).cloned().collect());
         let is_rough = |score: &Score, observations: &Observations| {
             score.rms > ROUGH_SHARE * measured_size(observations) || self.priors.is_beyond(&score.values)
         };
         let best = finalists.first();
         if is_rough(as_read, &self.own) && best.is_none_or(|best| is_rough(&best.score, &best.observations)) {
-            finalists.extend(self.to_the_end(self.pairs(&pairs_of)));
+            finalists.extend(self.to_the_end(self.pairs(&screened)));
         }
         finalists.extend(self.two_states(as_read));
         best_first(&mut finalists);
@@ -115,17 +119,17 @@ impl<'a> Trial<'a> {
         finalists
     }
 
-    /// Two mistakes at once, after a few steps from the errors of either.
+    /// The best of single mistakes, each with every other, after a few steps from the errors of the first.
     fn pairs(&self, singles: &[Tried]) -> Vec<Tried> {
-        let pairs = singles.iter().enumerate().flat_map(|(at, one)| {
+        let pairs = singles.iter().take(PAIRED).enumerate().flat_map(|(at, one)| {
             singles[at + 1..].iter().filter_map(move |other| {
-                Some((both::of(&one.hypothesis, &other.hypothesis)?, [&one.score, &other.score]))
+                Some((both::of(&one.hypothesis, &other.hypothesis)?, one.score.values.as_slice()))
             })
         });
-        let pairs: Vec<(Hypothesis, [&Score; 2])> = pairs.collect();
-        let tried = |(hypothesis, of): (Hypothesis, [&Score; 2])| {
+        let pairs: Vec<(Hypothesis, &[f64])> = pairs.collect();
+        let tried = |(hypothesis, first): (Hypothesis, &[f64])| {
             let observations = read(self.plan, self.sample, &hypothesis.changes)?;
-            let starts = [self.plan.fit.start.as_slice(), &of[0].values, &of[1].values];
+            let starts = [self.plan.fit.start.as_slice(), first];
             let from = |start: &[f64]| self.score(&observations, start, SCREENED_STEPS, Some(&hypothesis));
             let score = starts.into_iter().filter_map(from).max_by(|a, b| a.total.total_cmp(&b.total))?;
             Some(Tried { hypothesis, score, observations })

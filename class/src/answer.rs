@@ -47,16 +47,16 @@ pub enum AnswerError {
 pub enum ItemError {
     /// No list of words.
     #[error("`causes` is no list of words: write it as `causes = [\"wobble\", \"first_oval\"]`")]
-    NoCauses,
+    Causes,
     /// A reading that the sheet does not list.
     #[error("`{0}` is no reading of the sheet")]
-    NoReading(String),
+    Reading(String),
     /// No number of a sentence.
     #[error("`sentence` is no whole number: write it as `sentence = 2`")]
-    NoSentence,
+    Sentence,
     /// No number with its uncertainty.
     #[error("`{0}` is no number with its ±: write it as `{0} = {{ value = 12.3, uncertainty = 0.4 }}`")]
-    NoNumber(&'static str),
+    Number(&'static str),
 }
 
 impl Answer {
@@ -108,7 +108,7 @@ impl Answer {
     fn cause_words(&self) -> Result<Vec<&str>, ItemError> {
         let Some(causes) = self.items.get("causes") else { return Ok(Vec::new()) };
         let words = causes.as_array().and_then(|list| list.iter().map(toml::Value::as_str).collect());
-        words.ok_or(ItemError::NoCauses)
+        words.ok_or(ItemError::Causes)
     }
 
     /// How the student read the columns.
@@ -118,7 +118,7 @@ impl Answer {
     pub fn reading(&self) -> Result<Reading, ItemError> {
         let Some(reading) = self.items.get("reading") else { return Ok(Reading::AsLabelled) };
         let word = reading.as_str().map_or_else(|| reading.to_string(), str::to_owned);
-        Reading::of_word(&plain(&word)).ok_or_else(|| ItemError::NoReading(clipped(&word)))
+        Reading::of_word(&plain(&word)).ok_or_else(|| ItemError::Reading(clipped(&word)))
     }
 
     /// The number of a sentence.
@@ -126,7 +126,7 @@ impl Answer {
     /// # Errors
     /// It is no whole number.
     pub fn sentence(&self) -> Result<Option<i64>, ItemError> {
-        let read = |value: &toml::Value| value.as_integer().ok_or(ItemError::NoSentence);
+        let read = |value: &toml::Value| value.as_integer().ok_or(ItemError::Sentence);
         self.items.get("sentence").map(read).transpose()
     }
 
@@ -135,7 +135,7 @@ impl Answer {
     /// # Errors
     /// It is no number with an uncertainty.
     pub fn number(&self, name: &'static str) -> Result<Option<Number>, ItemError> {
-        let read = |value: &toml::Value| value.clone().try_into().map_err(|_| ItemError::NoNumber(name));
+        let read = |value: &toml::Value| value.clone().try_into().map_err(|_| ItemError::Number(name));
         self.items.get(name).map(read).transpose()
     }
 }

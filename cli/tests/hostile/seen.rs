@@ -42,7 +42,8 @@ pub fn run_in(folder: &Path, arguments: &[&str]) -> Seen {
     };
     for said in [&seen.stdout, &seen.stderr] {
         is_seen(said, &format!("{arguments:?}"));
-        assert!(said.len() < 400_000, "{arguments:?}: {} bytes", said.len());
+        // The longest answer is half a page of feedback for each of 200 students.
+        assert!(said.len() < 600_000, "{arguments:?}: {} bytes", said.len());
     }
     for line in seen.stderr.lines() {
         assert!(

@@ -59,7 +59,7 @@ pub(super) fn steps(misread: &Misread) -> Vec<Step> {
         }
         if matches!(suspect.reading, Reading::TwoStates { .. }) {
             text.push_str(
-                "Look for two targets, two prism constants or a play. Write a column that says which, and calibrate each kind alone. ",
+                "Look for two targets, two prism constants or a play. Add a column with the kind of each row, and calibrate each kind alone. ",
             );
         } else if suspect.lines.is_empty() {
             text.push_str("Correct these rows in the file. ");
@@ -108,7 +108,7 @@ fn title(reading: &Reading) -> &'static str {
         Reading::Order { .. } => "Change the order of the columns",
         Reading::Inverse { .. } => "Turn the rotation round",
         Reading::Both { .. } => "Correct both",
-        Reading::TwoStates { .. } => "Tell the two kinds of rows apart",
+        Reading::TwoStates { .. } => "Separate the two kinds of rows",
         Reading::Shifted { .. } => "Shift the rows",
     }
 }
@@ -138,10 +138,13 @@ fn sentence(reading: &Reading) -> String {
             format!("{} This applies only to the rows {which} row {row}{on}.", sentence(reading))
         }
         Reading::Order { columns, order } => {
-            format!("Columns {} hold the {order} of the quaternion, not its w, x, y, z.", listed(columns))
+            format!(
+                "Columns {} are the {order} of the quaternion. The study takes them for w, x, y, z.",
+                listed(columns)
+            )
         }
         Reading::Inverse { columns } => {
-            format!("Columns {} hold the inverse rotation. It turns the other way.", listed(columns))
+            format!("Columns {} are the inverse rotation, which turns the other way.", listed(columns))
         }
         Reading::Both { readings: [one, other] } => format!("{} {}", sentence(one), sentence(other)),
         Reading::TwoStates { errors, by, units, rows, of } => {

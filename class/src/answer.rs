@@ -85,7 +85,7 @@ impl Answer {
     /// The causes, each with those that the student does not choose between; none for a word that the sheet does not list.
     ///
     /// # Errors
-    /// They are no list of words.
+    /// The value is not a list of words.
     pub fn causes(&self) -> Result<Vec<Vec<Option<Cause>>>, ItemError> {
         let words = self.cause_words()?;
         let set = |entry: &&str| {

@@ -7,7 +7,7 @@ use super::{Certificate, Refusal, vector_to_order};
 use model_core::algebra::Poly;
 use model_core::chain::ObservableId;
 use model_core::expr::Expr;
-use model_core::identify::{Dependence, Ratio, put_in, special};
+use model_core::identify::{Dependence, Identifiability, Ratio, put_in, special};
 use model_core::symbol::SymbolId;
 
 /// A theorem on what one error does, the others being zero, to first order.
@@ -71,6 +71,28 @@ impl Certificate<'_> {
             others.join(", ")
         );
         self.related(observable, &wanted, &title, dependence.error, &dependence.others)
+    }
+
+    /// That some of the errors have no influence, and which of them are one and the same up to a factor.
+    ///
+    /// # Errors
+    /// [`Refusal`].
+    pub fn invisible_and_alike(
+        &mut self,
+        observable: ObservableId,
+        found: &Identifiability,
+        is_asked: impl Fn(SymbolId) -> bool,
+    ) -> Result<(), Refusal> {
+        for &error in found.invisible.iter().filter(|error| is_asked(**error)) {
+            self.without_influence(observable, error)?;
+        }
+        for group in &found.alike {
+            let Some((first, others)) = group.split_first() else { continue };
+            for other in others {
+                self.alike(observable, first.error, other.error, &other.ratio)?;
+            }
+        }
+        Ok(())
     }
 
     /// That an error is a sum of multiples of others, in one module.

@@ -114,14 +114,13 @@ fn left<'a>(
         return Ok(None);
     }
     let [stepped, mut after] = predicted(whole, last, [&held_out.before, &held_out.after])?;
-    let own = match is_refitted(whole, before) {
-        true => {
-            let plan = whole.request.plan;
-            let of_row = |row: usize| last.search.fold_of(last.fitted.layout.first(row));
-            let folds = last.search.problem.folds();
-            Without::of(&plan.chain, observations, &plan.fit, before)?.each(of_row, folds)?
-        }
-        false => stepped,
+    let own = if is_refitted(whole, before) {
+        let plan = whole.request.plan;
+        let of_row = |row: usize| last.search.fold_of(last.fitted.layout.first(row));
+        let folds = last.search.problem.folds();
+        Without::of(&plan.chain, observations, &plan.fit, before)?.each(of_row, folds)?
+    } else {
+        stepped
     };
     // Where no search found anything, after is before.
     if last.fitted.found.is_empty() && held_out.chosen.iter().all(Vec::is_empty) {

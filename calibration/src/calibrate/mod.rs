@@ -5,7 +5,7 @@
 //! a memory of the noise competes with the effects (`memory`), shapes of the library compete with them (`functions`), the
 //! search is repeated without each fold (`held_out`), effects that do not help there are left out (`confirm`), and shapes are taken
 //! up where they help (`choice`). Where rows beside unknown objects that follow each other are off alike even so, all of it is done
-//! once more with stretches of them for groups (`stretches`), and what nobody fitted is whole objects (`whole_objects`). Where a simpler model of the
+//! once more: stretches of rows are then the groups (`stretches`), and whole objects are held out (`whole_objects`). Where a simpler model of the
 //! `ladder` predicts held-out rows clearly better than all declared errors, all of it is done once more with that one (`simpler`).
 //! [`crate::diagnose`] says what it means; the crate `report` says it in words.
 

@@ -1,4 +1,4 @@
-//! What a fit foretells of rows that it did not see: its own optimum without them, for the same declaration.
+//! What the same declaration predicts of rows that its fit did not see: the fit is its optimum without them.
 //!
 //! One step leads there from the fit of all rows, in whitened combinations, and the exact chain is evaluated behind it. Where the step
 //! is too long for that, the rows that stay are fitted anew. What they do not show stands at its nominal value, whatever the

@@ -29,8 +29,8 @@ pub(super) const COUNTS_DEGREES: f64 = 4.0 * 360.0;
 pub(super) const TURNED_PRICE: f64 = 1.0;
 /// And that it holds of some rows alone.
 pub(super) const FROM_ROW_PRICE: f64 = 3.0;
-/// Rows are of two kinds when that wins by so much, leaves at most this share of the residual, and parts the rows by so many times what is left
-/// along the difference; the smaller kind has at least this share of them.
+/// Rows are told to be of two kinds where four conditions hold: the score is better by this margin, the residual shrinks to this share, the
+/// kinds differ by this many times the spread along the difference, and the smaller kind has this share of the rows.
 pub(super) const STATES_PRICE: f64 = 1.0;
 pub(super) const STATES_MARGIN: f64 = 10.0;
 pub(super) const STATES_RATIO: f64 = 0.6;
@@ -69,109 +69,155 @@ const ASKED: &str = "specification: beyond this a value is no small error";
 
 /// Every number that decides here.
 pub const THRESHOLDS: &[Threshold] = &[
-    row("misread.margin", MARGIN, "nats by which another reading must win", TRIALS),
-    row("misread.ratio", RATIO, "share of the residual that another reading may leave", TRIALS),
-    row(
+    Threshold::new("misread.margin", MARGIN, "nats by which another reading must win", TRIALS),
+    Threshold::new("misread.ratio", RATIO, "share of the residual that another reading may leave", TRIALS),
+    Threshold::new(
         "misread.cleared",
         CLEARED,
         "nats of the prior on errors that another reading must save, else",
         TRIALS,
     ),
-    row("misread.same", SAME, "factor by which the residual may grow then", TRIALS),
-    row("misread.ratio_rows", RATIO_ROWS, "share of the residual that shifted rows may leave", TRIALS),
-    row("misread.one_of", ONE_OF, "nats within which readings are told together", TRIALS),
-    row("misread.rare", RARE, "prior probability that a column is misread", TRIALS),
-    row(
+    Threshold::new("misread.same", SAME, "factor by which the residual may grow then", TRIALS),
+    Threshold::new(
+        "misread.ratio_rows",
+        RATIO_ROWS,
+        "share of the residual that shifted rows may leave",
+        TRIALS,
+    ),
+    Threshold::new("misread.one_of", ONE_OF, "nats within which readings are told together", TRIALS),
+    Threshold::new("misread.rare", RARE, "prior probability that a column is misread", TRIALS),
+    Threshold::new(
         "misread.exchanged",
         EXCHANGED_PRICE,
         "nats that exchanged columns are rarer than a wrong unit",
         TRIALS,
     ),
-    row(
+    Threshold::new(
         "misread.order",
         ORDER_PRICE,
         "nats that a quaternion in another order is rarer than a wrong unit",
         PRICED,
     ),
-    row("misread.states", STATES_PRICE, "nats that rows of two kinds are rarer than a wrong unit", PRICED),
-    row("misread.states_margin", STATES_MARGIN, "nats by which rows of two kinds must win", PRICED),
-    row(
+    Threshold::new(
+        "misread.states",
+        STATES_PRICE,
+        "nats that rows of two kinds are rarer than a wrong unit",
+        PRICED,
+    ),
+    Threshold::new(
+        "misread.states_margin",
+        STATES_MARGIN,
+        "nats by which rows of two kinds must win",
+        PRICED,
+    ),
+    Threshold::new(
         "misread.states_ratio",
         STATES_RATIO,
         "share of the residual that rows of two kinds may leave",
         PRICED,
     ),
-    row(
+    Threshold::new(
         "misread.states_apart",
         STATES_APART,
         "how far the kinds are apart, over what is left along the difference",
         PRICED,
     ),
-    row(
+    Threshold::new(
         "misread.states_rows",
         STATES_ROWS,
         "rows at least that are parted into two kinds",
         "105 clean simulated studies: with 10, a wave in 12 rows was taken for two kinds",
     ),
-    row("misread.states_fewest", STATES_FEWEST_SHARE, "least share of the rows in the smaller kind", PRICED),
-    row(
+    Threshold::new(
+        "misread.states_fewest",
+        STATES_FEWEST_SHARE,
+        "least share of the rows in the smaller kind",
+        PRICED,
+    ),
+    Threshold::new(
         "misread.states_scattered",
         STATES_SCATTERED,
         "changes of kind along rows, a joint or a column, over those by chance",
         PRICED,
     ),
-    row(
+    Threshold::new(
         "misread.travel_rad",
         TRAVEL_RAD,
         "travel of a joint below which a unit is rarer",
         "judgement: an instrument is calibrated over most of its travel",
     ),
-    row(
+    Threshold::new(
         "misread.rough",
         ROUGH_SHARE,
         "share of what was measured that one mistake must leave for two to be asked",
         PRICED,
     ),
-    row("misread.packed", PACKED_PRICE, "nats that packed digits are rarer than a wrong unit", TRIALS),
-    row(
+    Threshold::new(
+        "misread.packed",
+        PACKED_PRICE,
+        "nats that packed digits are rarer than a wrong unit",
+        TRIALS,
+    ),
+    Threshold::new(
         "misread.zenith",
         ZENITH_PRICE,
         "nats that an angle from the zenith is rarer than a wrong unit",
         TRIALS,
     ),
-    row("misread.shifted", SHIFTED_PRICE, "nats that slipped rows are rarer than a wrong unit", TRIALS),
-    row("misread.counts", COUNTS_PRICE, "nats that counts of an encoder are rarer than a wrong unit", PRICED),
-    row("misread.counts_degrees", COUNTS_DEGREES, "degrees that counts of an encoder span at least", PRICED),
-    row(
+    Threshold::new(
+        "misread.shifted",
+        SHIFTED_PRICE,
+        "nats that slipped rows are rarer than a wrong unit",
+        TRIALS,
+    ),
+    Threshold::new(
+        "misread.counts",
+        COUNTS_PRICE,
+        "nats that counts of an encoder are rarer than a wrong unit",
+        PRICED,
+    ),
+    Threshold::new(
+        "misread.counts_degrees",
+        COUNTS_DEGREES,
+        "degrees that counts of an encoder span at least",
+        PRICED,
+    ),
+    Threshold::new(
         "misread.turned",
         TURNED_PRICE,
         "nats that a zero a quarter turn off is rarer than a wrong unit",
         PRICED,
     ),
-    row("misread.from_row", FROM_ROW_PRICE, "nats that a mistake of some rows alone is rarer", PRICED),
-    row("prior.tilt_rad", TILT_RAD, "size of a tilt, scale of its prior", TRIALS),
-    row(
+    Threshold::new(
+        "misread.from_row",
+        FROM_ROW_PRICE,
+        "nats that a mistake of some rows alone is rarer",
+        PRICED,
+    ),
+    Threshold::new("prior.tilt_rad", TILT_RAD, "size of a tilt, scale of its prior", TRIALS),
+    Threshold::new(
         "prior.length_share",
         LENGTH_SHARE,
         "size of a length error over the reach, scale of its prior",
         TRIALS,
     ),
-    row(
+    Threshold::new(
         "prior.tool_share",
         TOOL_SHARE,
         "size of an error of a tool over the reach, scale of its prior",
         TRIALS,
     ),
-    row("plausible.tilt_rad", MOST_TILT_RAD, "largest tilt that is a finding", ASKED),
-    row(
+    Threshold::new("plausible.tilt_rad", MOST_TILT_RAD, "largest tilt that is a finding", ASKED),
+    Threshold::new(
         "plausible.length_share",
         MOST_LENGTH_SHARE,
         "largest length error over the reach that is a finding",
         ASKED,
     ),
-    row("plausible.residual_share", MOST_RESIDUAL_SHARE, "largest residual over what was measured", ASKED),
+    Threshold::new(
+        "plausible.residual_share",
+        MOST_RESIDUAL_SHARE,
+        "largest residual over what was measured",
+        ASKED,
+    ),
 ];
-
-const fn row(name: &'static str, value: f64, meaning: &'static str, source: &'static str) -> Threshold {
-    Threshold::new(name, value, meaning, source)
-}

@@ -10,12 +10,10 @@ use super::estimated;
 use super::hypotheses::{Hypothesis, Reading};
 use super::policy::{RARE, STATES_APART, STATES_FEWEST_SHARE, STATES_PRICE, STATES_ROWS, STATES_SCATTERED};
 use super::score::{Score, log_density, trimmed, width};
-use fit::{Model, residuals};
+use crate::search::columns::Columns;
+use fit::noise::Layout;
 use observe::Observations;
 use study::{Plan, Undeclared};
-
-/// Step of a difference of residuals, rad or m: small against any error, large against rounding.
-const STEP: f64 = 1e-6;
 
 /// Rounds until no row changes.
 const ROUNDS: usize = 30;
@@ -26,7 +24,6 @@ const ROUNDING: f64 = 1e-9;
 /// The rows of a sample with all that says which kind each could be.
 pub(super) struct Rows<'a> {
     pub plan: &'a Plan,
-    pub model: &'a Model,
     pub observations: &'a Observations,
     /// Columns of the file that the study does not name.
     pub labels: &'a [Undeclared],
@@ -56,9 +53,8 @@ impl Rows<'_> {
         if (rows as f64) < STATES_ROWS {
             return None;
         }
-        let residual = DVector::from_vec(self.residuals(&as_read.values)?);
         let errors: Vec<SymbolId> = estimated(self.plan).collect();
-        let jacobian = self.derivatives(&errors, &as_read.values)?;
+        let (residual, jacobian) = self.linearised(&errors, &as_read.values)?;
         let basis = basis(&jacobian);
         let left = &residual - &basis * basis.tr_mul(&residual);
         let candidates = self.candidates(series.observable, &errors, &jacobian);
@@ -71,7 +67,7 @@ impl Rows<'_> {
             if share < STATES_FEWEST_SHARE || !is_apart || !self.is_scattered(&parted.is_other, few) {
                 return None;
             }
-            let scored = self.scored(as_read, &parted, stride, candidate.errors.len(), share, number)?;
+            let scored = self.scored(as_read, &parted, candidate.errors.len(), share, number)?;
             Some((candidate, parted, scored))
         });
         let (candidate, parted, (price, score)) =
@@ -79,22 +75,15 @@ impl Rows<'_> {
         Some((self.hypothesis(&candidate, &parted, price), score))
     }
 
-    fn residuals(&self, values: &[f64]) -> Option<Vec<f64>> {
-        let all = residuals(self.model, self.observations, values).ok()?;
-        all.iter().all(|value| value.is_finite()).then_some(all)
-    }
-
-    fn derivatives(&self, errors: &[SymbolId], values: &[f64]) -> Option<DMatrix<f64>> {
-        let column = |error: &SymbolId| -> Option<DVector<f64>> {
-            let at = |step: f64| {
-                let mut moved = values.to_vec();
-                *moved.get_mut(error.index())? += step;
-                self.residuals(&moved).map(DVector::from_vec)
-            };
-            Some((at(STEP)? - at(-STEP)?) / (2.0 * STEP))
-        };
-        let columns: Vec<DVector<f64>> = errors.iter().map(column).collect::<Option<_>>()?;
-        (!columns.is_empty()).then(|| DMatrix::from_columns(&columns))
+    /// The residual, and how it falls as each error rises to what it is.
+    fn linearised(&self, errors: &[SymbolId], values: &[f64]) -> Option<(DVector<f64>, DMatrix<f64>)> {
+        let columns = Columns::at(&self.plan.chain, self.observations, errors, values, &[]).ok()?;
+        let declared = &columns.declared;
+        let jacobian =
+            DMatrix::from_fn(declared.nrows(), errors.len(), |row, column| declared[(row, column)]);
+        let residual = DVector::from_vec(columns.residual);
+        let is_finite = residual.iter().chain(jacobian.iter()).all(|value| value.is_finite());
+        (!errors.is_empty() && is_finite).then_some((residual, jacobian))
     }
 
     /// Each error, and the shifts of each body together.
@@ -156,7 +145,6 @@ impl Rows<'_> {
         &self,
         as_read: &Score,
         parted: &Parted,
-        stride: usize,
         more: usize,
         share: f64,
         candidates: f64,
@@ -171,10 +159,7 @@ impl Rows<'_> {
         let width = width(left);
         let free = (numbers - (as_read.rank + more) as f64).max(1.0);
         let total = free / numbers * (self.jacobian + log_density(left, width)) - price - as_read.penalty;
-        let norms: Vec<f64> = left
-            .chunks(stride)
-            .map(|row| row.iter().map(|value| value * value).sum::<f64>().sqrt())
-            .collect();
+        let norms: Vec<f64> = Layout::of(self.observations).norms(left).collect();
         let score = Score {
             total,
             scale: (width.ln() - self.jacobian / numbers).exp(),
@@ -191,8 +176,7 @@ impl Rows<'_> {
             parted.is_other.iter().enumerate().filter(|(_, other)| **other).map(|(row, _)| number(row));
         let reading = Reading::TwoStates {
             errors: candidate.errors.iter().map(|id| symbol(id).name.clone()).collect(),
-            // The residual falls where the error rises to what it is.
-            by: parted.by.iter().map(|by| -by).collect(),
+            by: parted.by.iter().copied().collect(),
             units: candidate.errors.iter().map(|id| symbol(id).quantity.into()).collect(),
             rows: rows.collect(),
             of: parted.is_other.len(),

@@ -91,30 +91,30 @@ impl<'a> Trial<'a> {
             all.into_iter().filter_map(|hypothesis| self.screened(hypothesis, as_read)).collect();
         screened.extend(self.of_rows(&screened, as_read));
         best_first(&mut screened);
-        let mut finalists = self.to_the_end(screened.iter().take(FITTED).cloned().collect());
+        let mut finalists = self.to_the_end(&screened);
         let is_rough = |score: &Score, observations: &Observations| {
             score.rms > ROUGH_SHARE * measured_size(observations) || self.priors.is_beyond(&score.values)
         };
         let best = finalists.first();
         if is_rough(as_read, &self.own) && best.is_none_or(|best| is_rough(&best.score, &best.observations)) {
-            finalists.extend(self.to_the_end(self.pairs(&screened)));
+            let mut pairs = self.pairs(&screened);
+            best_first(&mut pairs);
+            finalists.extend(self.to_the_end(&pairs));
         }
         finalists.extend(self.two_states(as_read));
         best_first(&mut finalists);
         finalists
     }
 
-    /// The best of some readings, fitted to the end.
-    fn to_the_end(&self, mut screened: Vec<Tried>) -> Vec<Tried> {
-        best_first(&mut screened);
-        screened.truncate(FITTED);
-        let fitted = |tried: Tried| {
-            let Tried { hypothesis, score, observations } = tried;
+    /// The first of some readings, fitted to the end, the best first.
+    fn to_the_end(&self, screened: &[Tried]) -> Vec<Tried> {
+        let fitted = |tried: &Tried| {
+            let Tried { hypothesis, score, observations } = tried.clone();
             let steps = self.plan.fit.max_iterations;
             let score = self.score(&observations, &score.values, steps, Some(&hypothesis))?;
             Some(Tried { hypothesis, score, observations })
         };
-        let mut finalists: Vec<Tried> = screened.into_iter().filter_map(fitted).collect();
+        let mut finalists: Vec<Tried> = screened.iter().take(FITTED).filter_map(fitted).collect();
         best_first(&mut finalists);
         finalists
     }
@@ -141,7 +141,6 @@ impl<'a> Trial<'a> {
     fn two_states(&self, as_read: &Score) -> Option<Tried> {
         let rows = states::Rows {
             plan: self.plan,
-            model: &self.model,
             observations: &self.own,
             labels: &self.sample.undeclared(&self.own),
             jacobian: jacobian(&self.own, &self.columns, None),

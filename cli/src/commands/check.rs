@@ -164,8 +164,12 @@ fn certify(file: &ClaimsFile, checked: &[Checked<'_>]) -> Result<String, Failure
             Claim::Entries(entries) => Some(&entries.of),
             _ => None,
         })
-        .filter_map(|of| if let EntriesOf::Jacobian { by, .. } = of { Some(by.clone()) } else { None })
+        .filter_map(|of| match of {
+            EntriesOf::Jacobian { by, .. } => Some(by),
+            _ => None,
+        })
         .flatten()
+        .copied()
         .collect();
     let declared = declared.with_changes(&varied);
     let mut certificate = Certificate::new(&declared);
@@ -260,15 +264,7 @@ fn null_vectors(certificate: &mut Certificate<'_>, declared: &Declared, rank: &R
         return Err("the answer is at the declared values of the constants".to_owned());
     }
     let refused = |refusal: Refusal| refusal.to_string();
-    for &error in found.invisible.iter().filter(|error| errors.contains(error)) {
-        certificate.without_influence(*observable, error).map_err(refused)?;
-    }
-    for group in &found.alike {
-        let Some((first, others)) = group.split_first() else { continue };
-        for other in others {
-            certificate.alike(*observable, first.error, other.error, &other.ratio).map_err(refused)?;
-        }
-    }
+    certificate.invisible_and_alike(*observable, &found, |error| errors.contains(&error)).map_err(refused)?;
     for dependence in &found.combinations {
         certificate.dependent(*observable, dependence).map_err(refused)?;
     }

@@ -92,15 +92,7 @@ fn certify(source: &Source, certified: &[Identifiability]) -> Result<String, Fai
             continue;
         }
         for &observable in &found.observables {
-            for &error in &found.invisible {
-                certificate.without_influence(observable, error).map_err(refused)?;
-            }
-            for group in &found.alike {
-                let Some((first, others)) = group.split_first() else { continue };
-                for other in others {
-                    certificate.alike(observable, first.error, other.error, &other.ratio).map_err(refused)?;
-                }
-            }
+            certificate.invisible_and_alike(observable, found, |_| true).map_err(refused)?;
             for dependence in &found.combinations {
                 if let Err(refusal) = certificate.dependent(observable, dependence) {
                     let error = &declared.chain().symbol(dependence.error).name;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use model_core::Quantity;
 
-use super::{Hypothesis, Reading, Tried, line};
+use super::{Hypothesis, Reading, Tried, line, span};
 use crate::misread::policy::{COUNTS_DEGREES, COUNTS_PRICE};
 use study::{Change, Changed, SampledColumn};
 
@@ -37,10 +37,8 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
 
 /// Whether a column is whole numbers, more than a few turns of degrees.
 fn may_be(column: &SampledColumn) -> bool {
-    let most = column.written.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let least = column.written.iter().copied().fold(f64::INFINITY, f64::min);
     column.quantity == Quantity::Angle
         && column.unit_is_open
         && column.written.iter().all(|number| number.fract() == 0.0)
-        && most - least > COUNTS_DEGREES
+        && span(column) > COUNTS_DEGREES
 }

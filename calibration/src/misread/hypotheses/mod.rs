@@ -219,6 +219,13 @@ fn sets<'a>(tried: &Tried<'a>, may: impl Fn(&SampledColumn) -> bool) -> Vec<Vec<
     sets
 }
 
+/// How far the numbers of a column reach, as they are written.
+fn span(column: &SampledColumn) -> f64 {
+    let most = column.written.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let least = column.written.iter().copied().fold(f64::INFINITY, f64::min);
+    most - least
+}
+
 /// Each of these columns by its name in the file.
 fn names(columns: &[&SampledColumn]) -> Vec<String> {
     columns.iter().map(|column| column.name.clone()).collect()

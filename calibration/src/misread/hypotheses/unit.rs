@@ -3,7 +3,7 @@
 use model_core::Quantity;
 use model_core::unit::Unit;
 
-use super::{Hypothesis, Reading, Tried, is_joint, line, named, names, quoted, sets};
+use super::{Hypothesis, Reading, Tried, is_joint, line, named, names, quoted, sets, span};
 use crate::misread::policy::TRAVEL_RAD;
 use study::{Change, Changed, SampledColumn};
 
@@ -51,8 +51,6 @@ fn hypothesis(tried: &Tried<'_>, columns: &[&SampledColumn], unit: &str) -> Opti
 
 /// Nats that the travel of a joint is rarer than a long one, by the numbers of its column in a unit.
 fn short_of_travel(column: &SampledColumn, in_si: f64) -> f64 {
-    let most = column.written.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let least = column.written.iter().copied().fold(f64::INFINITY, f64::min);
-    let travel = (most - least) * in_si;
+    let travel = span(column) * in_si;
     if column.quantity == Quantity::Angle && travel > 0.0 { (TRAVEL_RAD / travel).ln().max(0.0) } else { 0.0 }
 }

@@ -6,18 +6,16 @@ use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
 
 /// The lower Cholesky factor. Where rounding makes the matrix indefinite, the diagonal grows by as little as helps.
 pub(crate) fn cholesky(matrix: &Mat<f64>) -> Option<Mat<f64>> {
-    let mut nudge = 0.0;
-    for _ in 0..6 {
+    if let Ok(factor) = matrix.llt(Side::Lower) {
+        return Some(factor.L().to_owned());
+    }
+    [1e-13, 3e-12, 9e-11, 2.7e-9, 8.1e-8].iter().find_map(|nudge| {
         let mut nudged = matrix.clone();
         for index in 0..matrix.nrows() {
             nudged[(index, index)] *= 1.0 + nudge;
         }
-        if let Ok(factor) = nudged.llt(Side::Lower) {
-            return Some(factor.L().to_owned());
-        }
-        nudge = if nudge == 0.0 { 1e-13 } else { nudge * 30.0 };
-    }
-    None
+        nudged.llt(Side::Lower).ok().map(|factor| factor.L().to_owned())
+    })
 }
 
 /// Adds the inner products of columns to the lower triangle of a matrix.
@@ -39,9 +37,42 @@ pub(crate) fn add_products(lower: MatMut<'_, f64>, columns: MatRef<'_, f64>) {
 /// The inner products of columns.
 pub(crate) fn products(columns: &Mat<f64>) -> Mat<f64> {
     let width = columns.ncols();
-    let mut lower = Mat::zeros(width, width);
-    add_products(lower.as_mut(), columns.as_ref());
-    Mat::from_fn(width, width, |row, column| lower[(row.max(column), row.min(column))])
+    let mut products = Mat::zeros(width, width);
+    add_products(products.as_mut(), columns.as_ref());
+    mirror(&mut products);
+    products
+}
+
+/// Writes the lower triangle of a matrix over the upper one, tile by tile: column by column would leave the processor's cache.
+pub(crate) fn mirror(matrix: &mut Mat<f64>) {
+    const TILE: usize = 16;
+    let size = matrix.ncols();
+    let mut tile = [0.0; TILE * TILE];
+    for left in (0..size).step_by(TILE) {
+        let columns = left..(left + TILE).min(size);
+        for top in (left..size).step_by(TILE) {
+            let rows = top..(top + TILE).min(size);
+            for (own, at) in tile.chunks_exact_mut(TILE).zip(columns.clone()) {
+                own[..rows.len()].copy_from_slice(&column(matrix, at)[rows.clone()]);
+            }
+            for (down, row) in rows.enumerate() {
+                let into = &mut column_mut(matrix, row)[left..columns.end.min(row)];
+                for (value, own) in into.iter_mut().zip(tile.chunks_exact(TILE)) {
+                    *value = own[down];
+                }
+            }
+        }
+    }
+}
+
+/// One column of a matrix stored by columns.
+pub(crate) fn column(matrix: &Mat<f64>, at: usize) -> &[f64] {
+    matrix.col(at).try_as_col_major().map_or(&[], |column| column.as_slice())
+}
+
+/// The same to be written.
+pub(crate) fn column_mut(matrix: &mut Mat<f64>, at: usize) -> &mut [f64] {
+    matrix.col_mut(at).try_as_col_major_mut().map_or(&mut [], |column| column.as_slice_mut())
 }
 
 /// L⁻¹ times each column.
@@ -52,17 +83,14 @@ pub(crate) fn solve_lower(factor: MatRef<'_, f64>, right: MatMut<'_, f64>) {
 /// L⁻ᵀ times a vector.
 pub(crate) fn solve_upper(factor: &Mat<f64>, right: &mut [f64]) {
     for row in (0..right.len()).rev() {
-        let mut sum = right[row];
-        for below in row + 1..right.len() {
-            sum -= factor[(below, row)] * right[below];
-        }
-        right[row] = sum / factor[(row, row)];
+        let own = column(factor, row);
+        right[row] = (right[row] - dot(&own[row + 1..], &right[row + 1..])) / own[row];
     }
 }
 
 /// Half of the logarithm of the determinant of a matrix, from its factor.
 pub(crate) fn half_log_det(factor: &Mat<f64>) -> f64 {
-    (0..factor.nrows()).map(|index| factor[(index, index)].ln()).sum()
+    (0..factor.nrows()).map(|index| column(factor, index)[index].ln()).sum()
 }
 
 /// Inner product with four sums side by side.

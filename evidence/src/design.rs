@@ -2,6 +2,7 @@
 
 use faer::Mat;
 
+use crate::algebra::column_mut;
 use crate::families::Dictionary;
 use crate::function::Function;
 use crate::places::Places;
@@ -85,12 +86,8 @@ impl Table {
     /// Some of all columns as a matrix over all rows.
     pub fn some(&self, point: &Point, numbers: &[usize], rows: usize) -> Mat<f64> {
         let mut matrix = Mat::zeros(point.residual.len(), numbers.len());
-        let mut buffer = vec![0.0; point.residual.len()];
         for (at, &number) in numbers.iter().enumerate() {
-            self.any(point, number, 0..rows, &mut buffer);
-            for (row, value) in buffer.iter().enumerate() {
-                matrix[(row, at)] = *value;
-            }
+            self.any(point, number, 0..rows, column_mut(&mut matrix, at));
         }
         matrix
     }

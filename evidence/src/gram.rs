@@ -2,7 +2,7 @@
 
 use faer::{Accum, Mat, Par};
 
-use crate::algebra::add_products;
+use crate::algebra::{add_products, column, column_mut, mirror};
 use crate::design::Table;
 use crate::noise::{Memory, Noise};
 use crate::point::Point;
@@ -52,55 +52,38 @@ impl Gram {
         let old = known.map_or(0, Mat::ncols);
         let filter = memory.map(|memory| memory.filter(rows));
         let mut states = vec![0.0; if filter.is_some() { width * components } else { 0 }];
-        let mut products = Mat::zeros(width, width - old);
+        // The lower triangle, its rows above those that are new already known.
+        let mut products = Mat::zeros(width, width);
+        for (at, known) in known.into_iter().flat_map(|known| (0..old).map(move |at| (at, column(known, at))))
+        {
+            column_mut(&mut products, at)[..old].copy_from_slice(known);
+        }
         let mut block = Mat::zeros(BLOCK.min(rows) * components, width);
         for from in (0..rows).step_by(BLOCK) {
             let to = (from + BLOCK).min(rows);
             let height = (to - from) * components;
             let weights = &noise.weights[from * components..to * components];
             for number in 0..width {
-                let column = &mut block
-                    .col_mut(number)
-                    .try_as_col_major_mut()
-                    .map_or(&mut [][..], |column| column.as_slice_mut())[..height];
-                table.any(point, number, from..to, column);
-                for (value, weight) in column.iter_mut().zip(weights) {
+                let values = &mut column_mut(&mut block, number)[..height];
+                table.any(point, number, from..to, values);
+                for (value, weight) in values.iter_mut().zip(weights) {
                     *value *= weight;
                 }
                 if let Some(filter) = &filter {
                     let state = &mut states[number * components..(number + 1) * components];
-                    filter.apply(from, column, state);
+                    filter.apply(from, values, state);
                 }
             }
             let whole = block.as_ref().subrows(0, height);
-            let new = whole.subcols(old, width - old);
             if old == 0 {
                 add_products(products.as_mut(), whole);
             } else {
-                faer::linalg::matmul::matmul(
-                    products.as_mut(),
-                    Accum::Add,
-                    whole.transpose(),
-                    new,
-                    1.0,
-                    Par::Seq,
-                );
+                let new = whole.subcols(old, width - old).transpose();
+                let into = products.as_mut().subrows_mut(old, width - old);
+                faer::linalg::matmul::matmul(into, Accum::Add, new, whole, 1.0, Par::Seq);
             }
         }
-        let whole = Mat::from_fn(width, width, |row, column| {
-            let (low, high) = (row.min(column), row.max(column));
-            match known {
-                Some(known) if high < old => known[(row, column)],
-                // The new columns are whole; of a first matrix only the lower part is filled.
-                _ => {
-                    if old == 0 {
-                        products[(high, low)]
-                    } else {
-                        products[(low, high - old)]
-                    }
-                }
-            }
-        });
-        Self { products: whole, log_det: noise.log_det(memory, rows, components) }
+        mirror(&mut products);
+        Self { products, log_det: noise.log_det(memory, rows, components) }
     }
 }

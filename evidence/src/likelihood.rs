@@ -5,7 +5,9 @@ use std::sync::Arc;
 use faer::Mat;
 use rayon::prelude::*;
 
-use crate::algebra::{cholesky, dot, half_log_det, products, solve_lower, solve_upper, spectrum};
+use crate::algebra::{
+    cholesky, column, column_mut, dot, half_log_det, products, solve_lower, solve_upper, spectrum,
+};
 use crate::families::{Driver, Where};
 use crate::gram::Gram;
 use crate::policy::{Policy, SCALES};
@@ -114,15 +116,23 @@ impl View<'_> {
         }
         let products = &self.gram.products;
         let count = columns.len();
-        let scaled = Mat::from_fn(count, count, |row, column| {
-            let prior = f64::from(row == column && row >= self.declared);
-            deviations[row] * deviations[column] * products[(columns[row], columns[column])] + prior
-        });
+        let mut scaled = Mat::zeros(count, count);
+        for (at, (&own, deviation)) in columns.iter().zip(&deviations).enumerate() {
+            let from = column(products, own);
+            let into = &mut column_mut(&mut scaled, at)[at..];
+            for ((into, &row), other) in into.iter_mut().zip(&columns[at..]).zip(&deviations[at..]) {
+                *into = deviation * other * from[row];
+            }
+            into[0] += f64::from(at >= self.declared);
+        }
         let factor = cholesky(&scaled)?;
-        let mut forward = Mat::from_fn(count, 1, |row, _| deviations[row] * products[(columns[row], 0)]);
+        let with_residual = column(products, 0);
+        let along: Vec<f64> =
+            columns.iter().zip(&deviations).map(|(&own, deviation)| deviation * with_residual[own]).collect();
+        let mut forward = Mat::from_fn(count, 1, |row, _| along[row]);
         solve_lower(factor.as_ref(), forward.as_mut());
-        let forward: Vec<f64> = (0..count).map(|row| forward[(row, 0)]).collect();
-        let total = products[(0, 0)];
+        let forward = column(&forward, 0).to_vec();
+        let total = with_residual[0];
         // Residuals of zero are rounding of the sum of squares.
         let rest = (total - dot(&forward, &forward)).max(1e-12 * total);
         let half_log_det = half_log_det(&factor);
@@ -147,17 +157,7 @@ impl View<'_> {
     pub fn scan(&self, active: &[(usize, f64)], wanted: &dyn Fn(usize) -> bool) -> Vec<Gain> {
         let mut gains = vec![ABSORBED; self.families.len()];
         let Some(solved) = self.solve(active) else { return gains };
-        let products = &self.gram.products;
-        let mut projected = Mat::zeros(solved.columns.len(), products.ncols());
-        for at in 0..products.ncols() {
-            let from = column(products, at);
-            let into = projected.col_mut(at).try_as_col_major_mut();
-            let rows = into.into_iter().flat_map(|into| into.as_slice_mut()).zip(&solved.columns);
-            for ((into, &row), deviation) in rows.zip(&solved.deviations) {
-                *into = deviation * from[row];
-            }
-        }
-        solve_lower(solved.factor.as_ref(), projected.as_mut());
+        let projected = self.projected(&solved, 0..self.gram.products.ncols());
         let asked: Vec<usize> = (0..self.families.len())
             .filter(|&family| wanted(family) && active.iter().all(|&(other, _)| other != family))
             .collect();
@@ -175,14 +175,25 @@ impl View<'_> {
         gains
     }
 
+    /// L⁻¹ X′z of some columns z.
+    fn projected(&self, solved: &Solved, of: impl ExactSizeIterator<Item = usize>) -> Mat<f64> {
+        let mut projected = Mat::zeros(solved.columns.len(), of.len());
+        for (at, own) in of.enumerate() {
+            let from = column(&self.gram.products, own);
+            let rows = column_mut(&mut projected, at).iter_mut().zip(&solved.columns);
+            for ((into, &row), deviation) in rows.zip(&solved.deviations) {
+                *into = deviation * from[row];
+            }
+        }
+        solve_lower(solved.factor.as_ref(), projected.as_mut());
+        projected
+    }
+
     /// What one family gains beside an active set.
     pub fn one(&self, active: &[(usize, f64)], family: usize) -> Gain {
         let Some(solved) = self.solve(active) else { return ABSORBED };
         let columns = &self.families[family].columns;
-        let mut projected = Mat::from_fn(solved.columns.len(), columns.len(), |row, at| {
-            solved.deviations[row] * self.gram.products[(solved.columns[row], columns[at])]
-        });
-        solve_lower(solved.factor.as_ref(), projected.as_mut());
+        let projected = self.projected(&solved, columns.iter().copied());
         self.gain(&solved, family, |at| column(&projected, at))
     }
 
@@ -248,10 +259,7 @@ impl View<'_> {
     pub fn needed(&self, active: &[(usize, f64)], family: usize, nats: f64) -> Option<f64> {
         let solved = self.solve(active)?;
         let columns = &self.families[family].columns;
-        let mut projected = Mat::from_fn(solved.columns.len(), columns.len(), |row, at| {
-            solved.deviations[row] * self.gram.products[(solved.columns[row], columns[at])]
-        });
-        solve_lower(solved.factor.as_ref(), projected.as_mut());
+        let projected = self.projected(&solved, columns.iter().copied());
         let axes = self.axes(&solved, family, |at| column(&projected, at));
         let largest = axes.largest?;
         let expected = |variance: f64| {
@@ -286,11 +294,6 @@ impl View<'_> {
         let variance = solved.rest / self.freedom * self.inflation;
         Some(Posterior { columns: solved.columns, mean, shape, variance })
     }
-}
-
-/// One column of a matrix stored by columns.
-fn column(matrix: &Mat<f64>, at: usize) -> &[f64] {
-    matrix.col(at).try_as_col_major().map_or(&[], |column| column.as_slice())
 }
 
 /// The variance on the grid at which a family gains most: coarse steps first, then the fine ones around the best.

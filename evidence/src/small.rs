@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use faer::Mat;
 
-use crate::algebra::products;
+use crate::algebra::{column, column_mut, products};
 use crate::bench::{Bench, State};
 use crate::gram::Gram;
 use crate::greedy::tune;
@@ -116,11 +116,11 @@ impl<'a> Small<'a> {
     /// Residual of each value at the posterior mean, without weights; the given one where there is no posterior.
     pub fn residual(&self, noise: &Noise) -> Vec<f64> {
         let view = self.view(noise, None);
-        let mut residual: Vec<f64> = self.columns.col(0).iter().copied().collect();
+        let mut residual = column(&self.columns, 0).to_vec();
         if let Some((columns, means)) = view.mean(&self.active) {
             for (&number, mean) in columns.iter().zip(&means) {
-                for (value, column) in residual.iter_mut().zip(self.columns.col(number).iter()) {
-                    *value -= mean * column;
+                for (value, own) in residual.iter_mut().zip(column(&self.columns, number)) {
+                    *value -= mean * own;
                 }
             }
         }
@@ -190,9 +190,8 @@ pub(crate) fn whitened(
     let mut white = Mat::zeros(columns.nrows(), columns.ncols());
     let filter = memory.map(|memory| memory.filter(weights.len() / components));
     for at in 0..columns.ncols() {
-        let Some(into) = white.col_mut(at).try_as_col_major_mut() else { continue };
-        let values = into.as_slice_mut();
-        for ((value, own), weight) in values.iter_mut().zip(columns.col(at).iter()).zip(weights) {
+        let values = column_mut(&mut white, at);
+        for ((value, own), weight) in values.iter_mut().zip(column(columns, at)).zip(weights) {
             *value = own * weight;
         }
         if let Some(filter) = &filter {

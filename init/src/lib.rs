@@ -8,6 +8,7 @@ mod frame;
 pub mod links;
 mod look;
 mod observed;
+mod otherwise;
 mod placed;
 pub mod robot;
 mod study;
@@ -16,10 +17,11 @@ mod turned;
 mod words;
 
 pub use look::Look;
+pub use otherwise::otherwise;
 pub use study::{Names, study};
 pub use templates::Template;
 
-use ::study::{Open, Study};
+use ::study::{Open, Plan, Sample, Study};
 use model_core::Chain;
 use model_core::escape::message;
 
@@ -80,12 +82,22 @@ pub fn draft(
     Ok((template, draft))
 }
 
-/// Holds what was begun to what it is read with: the chain, the study, and every row of the data, which `open` gives. Says what is
-/// doubtful of them.
+/// What was begun, as it is read again.
+#[derive(Debug)]
+pub struct Held {
+    /// The study.
+    pub plan: Plan,
+    /// Some of its rows as the file has them, to be read otherwise.
+    pub sample: Sample,
+    /// What is doubtful of the data.
+    pub doubtful: Vec<String>,
+}
+
+/// Holds what was begun to what it is read with: the chain, the study, and every row of the data, which `open` gives.
 ///
 /// # Errors
 /// One of them cannot be read.
-pub fn hold(draft: &Draft, study: &str, open: &mut Open<'_>) -> Result<Vec<String>, NotBegun> {
+pub fn hold(draft: &Draft, study: &str, open: &mut Open<'_>) -> Result<Held, NotBegun> {
     let ours = |what: &str, why: String| {
         NotBegun::from(format!("{what} cannot be read again, and nothing is written: {why}"))
     };
@@ -95,7 +107,8 @@ pub fn hold(draft: &Draft, study: &str, open: &mut Open<'_>) -> Result<Vec<Strin
         .and_then(|study| study.plan(&chain))
         .map_err(|mistakes| ours("the study that was made of these data", mistakes.to_string()))?;
     let loaded = plan.load(open).map_err(|error| NotBegun::from(error.to_string()))?;
-    Ok(loaded.doubtful.iter().map(ToString::to_string).collect())
+    let doubtful = loaded.doubtful.iter().map(ToString::to_string).collect();
+    Ok(Held { plan, sample: loaded.sample, doubtful })
 }
 
 /// The template that a table plainly asks for.

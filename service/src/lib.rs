@@ -4,6 +4,7 @@
 //! Texts and tables come in memory, and strings and columns go out: who has files, a clock and a terminal stands above.
 
 pub mod apply;
+pub mod beginning;
 pub mod budget;
 pub mod calibrating;
 pub mod claims_file;

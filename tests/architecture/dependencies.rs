@@ -84,6 +84,20 @@ const MAY_USE: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "trueaxis-init",
+        &[
+            "trueaxis-core",
+            "trueaxis-codegen",
+            "trueaxis-parallel",
+            "trueaxis-tables",
+            "trueaxis-observe",
+            "trueaxis-effects",
+            "trueaxis-fit",
+            "trueaxis-network",
+            "trueaxis-study",
+        ],
+    ),
+    (
         "trueaxis-service",
         &[
             "trueaxis-core",
@@ -98,20 +112,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "trueaxis-study",
             "trueaxis-calibration",
             "trueaxis-report",
-        ],
-    ),
-    (
-        "trueaxis-init",
-        &[
-            "trueaxis-core",
-            "trueaxis-codegen",
-            "trueaxis-parallel",
-            "trueaxis-tables",
-            "trueaxis-observe",
-            "trueaxis-effects",
-            "trueaxis-fit",
-            "trueaxis-network",
-            "trueaxis-study",
+            "trueaxis-init",
         ],
     ),
     (

@@ -6,6 +6,7 @@ use init::robot::Description;
 use init::{Draft, Look, Names, templates};
 use serde_json::{Value, json};
 use service::Source;
+use service::beginning::{Begun, begun};
 use tables::formats::{self, Cells, Form, Input, Options, Wanted};
 use tables::urdf::Robot;
 
@@ -33,13 +34,14 @@ pub fn begin(asked: &Message, tell: Tell<'_>, warn: &dyn Fn(String)) -> Answered
     let stem = Path::new(name).file_stem().map_or_else(|| name.into(), |stem| stem.to_string_lossy());
     let (chain_name, study_name) = (format!("{stem}.chain"), format!("{stem}.toml"));
     let command = format!("trueaxis calibrate {}", report::shell_word(&study_name));
-    let study =
-        init::study(&draft, &look, Names { chain: &chain_name, data: name, command: &command, site: None });
-    init::hold(&draft, &study, &mut |_| Ok(Input::from(bytes.to_vec())))?.into_iter().for_each(warn);
+    let names = Names { chain: &chain_name, data: name, command: &command, site: None };
+    let Begun { study, remarks, doubtful } =
+        begun(&draft, &look, names, &mut |_| Ok(Input::from(bytes.to_vec())))?;
+    doubtful.into_iter().for_each(warn);
     let answer = Message::default()
         .with("template", template)
         .with("what", what)
-        .with("remarks", json!(draft.remarks).to_string())
+        .with("remarks", json!(remarks).to_string())
         .with("columns", first_rows(&mut *open()?)?.to_string())
         .with("chain-name", chain_name)
         .with("chain", draft.chain)

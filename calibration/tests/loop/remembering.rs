@@ -57,20 +57,13 @@ fn report(seed: u64, kept: f64, step: f64, eccentric: f64, axes: Axes) -> Diagno
     search(&text, &plan, &observations).diagnosis
 }
 
-/// One of eight at most; without regard to memory it was every one.
+/// Without regard to memory each of these was told an effect. How often one is told is for the evaluation command.
 #[track_caller]
 fn is_no_effect(axes: Axes) {
-    let mut accepted = Vec::new();
-    for (kept, step) in [(0.5, 0.0), (0.9, 0.0), (0.0, 0.2), (0.0, 0.4)] {
-        for seed in [1, 2] {
-            let report = report(seed, kept, step, 0.0, axes);
-            if report.effects.is_empty() {
-                continue;
-            }
-            accepted.push((kept, step, seed, report.effects[0].names[0].clone()));
-        }
+    for (kept, step) in [(0.9, 0.0), (0.0, 0.4)] {
+        let report = report(1, kept, step, 0.0, axes);
+        assert!(report.effects.is_empty(), "{kept} {step}: {:?}", report.effects);
     }
-    assert!(accepted.len() <= 1, "{accepted:?}");
 }
 
 #[test]

@@ -10,6 +10,7 @@ use init::{Look, links};
 use model_core::escape::line;
 use report::shell_word;
 use report::wrap::paragraph;
+use service::beginning::{Begun, begun};
 use tables::dh::{self, Dh};
 use tables::formats::{self, DataError, Input, Options, Site};
 use tables::ur::{self, Deltas};
@@ -23,7 +24,7 @@ use crate::{output, source, table_files, terminal};
 ///
 /// Looks at the header and the rows, and writes NAME.chain, with the errors that are usual for this kind of instrument,
 /// and NAME.toml, ready to run. What can be seen is not asked: which column is what, in which unit, which way angles
-/// run. Nothing is overwritten.
+/// run. Where the rows contradict a header, the study reads the column as the rows ask for, with a comment. Nothing is overwritten.
 ///
 /// Files of other programs are known by what they begin with: observations of TPOINT, models of MountWizzard4, points of AutoSlew, plate
 /// solves, GSI of Leica. What was read and assumed is printed.
@@ -142,13 +143,13 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         command: &format!("trueaxis calibrate {}", shell_word(&text(&study_file)?)),
         site: arguments.site(),
     };
-    let study = init::study(&draft, &look, names);
-    init::hold(&draft, &study, &mut |_| open(data))?.into_iter().for_each(terminal::warn);
+    let Begun { study, remarks, doubtful } = begun(&draft, &look, names, &mut |_| open(data))?;
+    doubtful.into_iter().for_each(terminal::warn);
     let mut batch = output::Batch::default();
     batch.write_text(&chain_file, &draft.chain)?;
     batch.write_text(&study_file, &study)?;
     batch.finish()?;
-    for remark in &draft.remarks {
+    for remark in &remarks {
         terminal::note(format_args!("note: {remark}"));
     }
     terminal::print_text(format!(

@@ -5,6 +5,7 @@ mod support;
 
 mod hostile;
 mod measured;
+mod otherwise;
 mod targets;
 
 use std::collections::BTreeMap;

@@ -3,7 +3,7 @@
 use super::numbers::short;
 use super::step::Step;
 use calibration::diagnose::{Caution, Diagnosis};
-use calibration::misread::{Implausible, Misread, Reading, Suspect};
+use calibration::misread::{Implausible, Line, Misread, Reading, Suspect};
 use observe::SiUnit;
 
 /// Readings that are shown where several explain the data alike.
@@ -42,32 +42,59 @@ pub(super) fn told(misread: &Misread) -> String {
     }
 }
 
+/// What a study that is begun says of how its columns are read, and the lines that read them so, each with its table. Where several
+/// readings explain the data, none is chosen.
+#[must_use]
+pub fn asked(misread: &Misread) -> (Vec<String>, Vec<(&str, &str)>) {
+    let each = |suspect: &Suspect| match &suspect.lines[..] {
+        [] => sentence(&suspect.reading),
+        lines => format!("{} {}", sentence(&suspect.reading), written(lines)),
+    };
+    match &misread.readings[..] {
+        [one] if !one.lines.is_empty() => {
+            let kept =
+                "The study is written so. Is the header right and this wrong, change these lines back.";
+            let lines = one.lines.iter().map(|line| (line.table, line.text.as_str())).collect();
+            (vec![told(misread), kept.to_owned()], lines)
+        }
+        [one] => (vec![told(misread), step(one).text], Vec::new()),
+        several => {
+            let asked = "One of these explains the data, and the data cannot choose. Which is true?";
+            let shown = several.iter().take(SHOWN).map(each);
+            (std::iter::once(asked.to_owned()).chain(shown).collect(), Vec::new())
+        }
+    }
+}
+
 /// What to write into the study.
 pub(super) fn steps(misread: &Misread) -> Vec<Step> {
-    let step = |suspect: &Suspect| {
-        let mut text = String::new();
-        for table in ["columns", "observed"] {
-            let lines: Vec<&str> = suspect
-                .lines
-                .iter()
-                .filter(|line| line.table == table)
-                .map(|line| line.text.as_str())
-                .collect();
-            if !lines.is_empty() {
-                text.push_str(&format!("Write under [{table}]: `{}`. ", lines.join("`, `")));
-            }
-        }
-        if matches!(suspect.reading, Reading::TwoStates { .. }) {
-            text.push_str(
-                "Look for two targets, two prism constants or a play. Add a column with the kind of each row, and calibrate each kind alone. ",
-            );
-        } else if suspect.lines.is_empty() {
-            text.push_str("Correct these rows in the file. ");
-        }
-        text.push_str("Then calibrate again.");
-        Step { title: title(&suspect.reading).to_owned(), text, command: None }
-    };
     misread.readings.iter().take(SHOWN).map(step).collect()
+}
+
+fn step(suspect: &Suspect) -> Step {
+    let mut text = written(&suspect.lines);
+    if matches!(suspect.reading, Reading::TwoStates { .. }) {
+        text.push_str(
+            "Look for two targets, two prism constants or a play. Add a column with the kind of each row, and calibrate each kind alone. ",
+        );
+    } else if suspect.lines.is_empty() {
+        text.push_str("Correct these rows in the file. ");
+    }
+    text.push_str("Then calibrate again.");
+    Step { title: title(&suspect.reading).to_owned(), text, command: None }
+}
+
+/// Lines to write, by their tables.
+fn written(lines: &[Line]) -> String {
+    let mut text = String::new();
+    for table in ["columns", "observed"] {
+        let own = lines.iter().filter(|line| line.table == table);
+        let own: Vec<&str> = own.map(|line| line.text.as_str()).collect();
+        if !own.is_empty() {
+            text.push_str(&format!("Write under [{table}]: `{}`. ", own.join("`, `")));
+        }
+    }
+    text
 }
 
 /// Values that no small error has, and what to do.

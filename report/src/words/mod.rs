@@ -31,6 +31,7 @@ pub use answers::{Answers, Tone, answers};
 pub use better::hides;
 pub use causes::{cause, form, sentence_case};
 pub use cautions::caution;
+pub use columns::asked;
 pub use components::{component_in_words, side};
 pub use effects::{bias, chance_of, evidence, headline, motion, place};
 pub use errors::{EstimateLine, Estimates, estimates, not_shown as errors_not_shown, wanted_not_shown};

@@ -2,7 +2,6 @@
 
 use std::ops::Index;
 
-use super::context::Found;
 use super::problem::Problem;
 use super::sweep::Sweep;
 use effects::candidate::EffectId;
@@ -54,28 +53,6 @@ impl Index<SetId> for SetColumns {
     fn index(&self, id: SetId) -> &[usize] {
         &self.0[id.0]
     }
-}
-
-impl ConfoundedSet {
-    /// What may be the cause of an effect that a contest weighed, the effect first, apart from what it excludes.
-    fn split_by(self, found: &Found) -> impl Iterator<Item = Self> + use<> {
-        let Self { members, rank } = self;
-        let is_possible = |member: &EffectId| found.shares.iter().any(|(own, _)| own == member);
-        let (mut possible, excluded): (Vec<_>, Vec<_>) = members.into_iter().partition(is_possible);
-        // What is written into the chain is what is tested.
-        possible.sort_by_key(|&member| member != found.effect);
-        let parts = [possible, excluded].into_iter().filter(|members| !members.is_empty());
-        parts.map(move |members| Self { members, rank })
-    }
-}
-
-/// The sets as a contest leaves them. [`SAME`] is a share of a column, and an effect of a hundred standard deviations shows more than
-/// that: what the contest excludes is told from what it does not, however alike their columns are.
-pub(crate) fn weighed(sets: Vec<ConfoundedSet>, found: &[Found]) -> Vec<ConfoundedSet> {
-    let split = |sets: Vec<ConfoundedSet>, found: &Found| {
-        sets.into_iter().flat_map(|set| set.split_by(found)).collect()
-    };
-    found.iter().fold(sets, split)
 }
 
 /// Merges candidates into confounded sets, in order of first member; those of rank zero are left out.

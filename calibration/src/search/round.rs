@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::SearchError;
-use super::confounded::{SetColumns, SetId, weighed};
+use super::apart::apart;
+use super::confounded::{SetColumns, SetId};
 use super::context::{Context, Found};
 use super::fitted::Fitted;
 use super::state::State;
@@ -42,7 +43,7 @@ impl<'a> Round<'a> {
     /// At a fit.
     pub fn at(whole: &Context<'a>, fitted: Fitted) -> Result<Self, SearchError> {
         let search = SearchProblem::at(whole, &fitted)?;
-        let sets = weighed(confounded_sets(&search.problem), &fitted.found);
+        let sets = apart(confounded_sets(&search.problem), &fitted.found);
         Ok(Self { fitted, search, sets, explained_by: None })
     }
 
@@ -53,7 +54,7 @@ impl<'a> Round<'a> {
 
     /// The same, with its effects by `explains`, which may have weighed them anew.
     pub fn explained_by(self, explains: Arc<dyn Explains>) -> Self {
-        let sets = weighed(confounded_sets(&self.search.problem), &self.fitted.found);
+        let sets = apart(confounded_sets(&self.search.problem), &self.fitted.found);
         Self { explained_by: Some(explains), sets, ..self }
     }
 

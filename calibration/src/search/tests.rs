@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 
-use super::confounded::weighed;
+use super::apart::apart;
 use super::context::Found;
 use super::state::State;
 use super::*;
@@ -147,13 +147,13 @@ fn a_contest_splits_sets() {
         shares: may_be.iter().map(|&own| (EffectId(own), 0.5)).collect(),
     };
     let sets = vec![set(&[0, 3, 4]), set(&[1, 2]), set(&[5])];
-    assert_eq!(weighed(sets.clone(), &[found(4, &[])]), sets);
+    assert_eq!(apart(sets.clone(), &[found(4, &[])]), sets);
     let expected = [set(&[4, 3]), set(&[0]), set(&[2]), set(&[1]), set(&[5])];
-    assert_eq!(weighed(sets.clone(), &[found(4, &[3, 4, 2])]), expected);
+    assert_eq!(apart(sets.clone(), &[found(4, &[3, 4, 2])]), expected);
     // Two effects of one set, each with its own causes.
     let expected = [set(&[4]), set(&[0, 3]), set(&[1, 2]), set(&[5])];
     assert_eq!(
-        weighed(sets, &[found(0, &[0, 3]), found(4, &[4])]),
+        apart(sets, &[found(0, &[0, 3]), found(4, &[4])]),
         [&expected[1], &expected[0], &expected[2], &expected[3]].map(Clone::clone)
     );
 }

@@ -304,12 +304,14 @@ fn unseen(task: &Task, model: Declared<'_>, reading: Reading) -> (f64, String) {
     let possible = task.level.difficulty().noise_arcsec * (fitted as f64 / task.rows.len() as f64).sqrt();
     let bare = Model::of(task.instrument.declaration, &task.instrument).ok();
     let bare = bare.and_then(|model| rms_arcsec(&model, task.reading));
+    let as_got = bare
+        .map_or_else(String::new, |bare| format!("The declaration as you got it errs by {}. ", shown(bare)));
     let (share, verdict) = if own <= PREDICTS_WELL * possible {
-        (1.0, "That is as good as can be")
+        (1.0, "Yours is as good as can be".to_owned())
     } else if bare.is_some_and(|bare| own <= PREDICTS_BETTER * bare) {
-        (0.5, "That is better than the declaration as you got it")
+        (0.5, format!("{as_got}Yours errs by less than half of that"))
     } else {
-        (0.0, "That is no better than the declaration as you got it")
+        (0.0, format!("{as_got}Less than half of that earns points"))
     };
     let poses = task.unseen.len();
     let why = format!(

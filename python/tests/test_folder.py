@@ -93,8 +93,8 @@ def test_the_effect_is_found_and_every_row_is_fitted(mount, folder, alone, tmp_p
             assert 0.35 < uncertainty / of_drawn < 0.45, name
     text = " ".join(repr(alone).split())
     assert "The search used 20000 of 128000 rows from 64 files. The errors are estimated from every row." in text
-    assert "On the 108000 rows that the search did not read it goes from 6.6″ to 5.8″." in text
-    assert "The search read 20000 of 128000 rows" in alone.html(whole=False)
+    assert "On the 108000 rows that the search did not use, the error goes from 6.6″ to 5.8″ RMS." in text
+    assert "The search used 20000 of 128000 rows" in alone.html(whole=False)
 
 
 def test_a_worker_that_dies_changes_nothing(mount, folder, alone, cluster):  # noqa: F811

@@ -1,6 +1,6 @@
 //! What a study asks of the answer: how good the instrument is to be (`[goal]`), and which errors stand first (`[report]`).
 
-use model_core::{Chain, Quantity, SymbolId, SymbolKind, names};
+use model_core::{Chain, Quantity, SymbolId};
 use toml::Spanned;
 
 use super::amount::{si, si_with_unit};
@@ -66,24 +66,7 @@ impl Study {
 /// The estimated errors that a name or a pattern means.
 fn named(chain: &Chain, name: &Spanned<String>, estimate: &[SymbolId]) -> Outcome<Vec<SymbolId>> {
     let written = name.get_ref();
-    let all = matching(chain, name).map_err(|told| {
-        if !names::is_pattern(written) {
-            return told;
-        }
-        let fixed: String = written.chars().filter(|letter| !matches!(letter, '*' | '?')).collect();
-        let own: Vec<&str> =
-            chain.symbols_of(SymbolKind::Error).map(|id| chain.symbol(id).name.as_str()).collect();
-        let help = names::nearest(&fixed, own.iter().copied()).map_or_else(
-            || {
-                format!(
-                    "there are {}",
-                    own.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
-                )
-            },
-            |near| format!("the nearest name is `{near}`"),
-        );
-        mistake(name.span(), format!("no error or constant matches `{written}`"), help)
-    })?;
+    let all = matching(chain, name)?;
     let estimated: Vec<SymbolId> = all.into_iter().filter(|id| estimate.contains(id)).collect();
     if estimated.is_empty() {
         let told: Several = mistake(

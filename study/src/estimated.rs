@@ -3,7 +3,7 @@
 use model_core::{Chain, Symbol, SymbolId, SymbolKind, names};
 use toml::Spanned;
 
-use super::mistakes::{Outcome, plain, unknown};
+use super::mistakes::{Outcome, mistake, unknown};
 
 /// Whether a symbol can be estimated.
 fn is_estimable(symbol: &Symbol) -> bool {
@@ -34,7 +34,22 @@ pub(super) fn matching(chain: &Chain, pattern: &Spanned<String>) -> Outcome<Vec<
     let matched = matched.unwrap_or_else(|| of(SymbolKind::Constant));
     if matched.is_empty() {
         let message = format!("no error or constant matches `{}`", pattern.get_ref());
-        return Err(plain(pattern.span(), message));
+        return Err(mistake(pattern.span(), message, instead_of(chain, pattern.get_ref())));
     }
     Ok(matched)
+}
+
+/// What to write instead of a pattern that matches nothing: the nearest name, or which there are.
+fn instead_of(chain: &Chain, pattern: &str) -> String {
+    let fixed: String = pattern.chars().filter(|letter| !matches!(letter, '*' | '?')).collect();
+    let all = chain.symbols.iter().filter(|symbol| is_estimable(symbol));
+    let names: Vec<&str> = all.map(|symbol| symbol.name.as_str()).collect();
+    match names::nearest(&fixed, names.iter().copied()) {
+        Some(near) => format!("the nearest name is `{near}`"),
+        None if names.is_empty() => "the chain has none".to_owned(),
+        None => {
+            let listed: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+            format!("there are {}", listed.join(", "))
+        }
+    }
 }

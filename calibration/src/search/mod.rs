@@ -10,6 +10,7 @@
 //! (`tail`, `flips`), select (`select`, within what `guards` allow), name the competing models (`competing`), confirm on held-out folds
 //! (`nested`) and elsewhere (`elsewhere`), let a memory of the noise (`memory`) and a library of shapes (`library`) compete, and look for structure that no candidate explains (`remains`, `scan`, `contest`).
 
+mod apart;
 pub(crate) mod aside;
 pub mod cells;
 mod chunk;

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::SearchError;
+use super::apart::apart;
 use super::confounded::{SetColumns, SetId};
 use super::context::{Context, Found};
 use super::fitted::Fitted;
@@ -42,7 +43,7 @@ impl<'a> Round<'a> {
     /// At a fit.
     pub fn at(whole: &Context<'a>, fitted: Fitted) -> Result<Self, SearchError> {
         let search = SearchProblem::at(whole, &fitted)?;
-        let sets = confounded_sets(&search.problem);
+        let sets = apart(confounded_sets(&search.problem), &fitted.found);
         Ok(Self { fitted, search, sets, explained_by: None })
     }
 
@@ -51,9 +52,10 @@ impl<'a> Round<'a> {
         Ok(Self { explained_by: self.explained_by.clone(), ..Self::at(whole, fitted)? })
     }
 
-    /// The same, with its effects by `explains`.
+    /// The same, with its effects by `explains`, which may have weighed them anew.
     pub fn explained_by(self, explains: Arc<dyn Explains>) -> Self {
-        Self { explained_by: Some(explains), ..self }
+        let sets = apart(confounded_sets(&self.search.problem), &self.fitted.found);
+        Self { explained_by: Some(explains), sets, ..self }
     }
 
     /// Whether somebody gave its effects: then nothing competes with them.

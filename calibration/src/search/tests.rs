@@ -7,6 +7,8 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 
+use super::apart::apart;
+use super::context::Found;
 use super::state::State;
 use super::*;
 use effects::candidate::EffectId;
@@ -129,4 +131,29 @@ fn stated_rows_are_held_out_with_their_units_alone() {
         let direct = all.qr().solve_lstsq(&left)[(p, 0)];
         approx::assert_relative_eq!(found / problem.length(column), direct, epsilon = 1e-10);
     }
+}
+
+/// What a contest excludes is no longer one with what it does not, and the effect that is written stands for its set.
+#[test]
+fn a_contest_splits_sets() {
+    let set = |members: &[usize]| ConfoundedSet {
+        members: members.iter().copied().map(EffectId).collect(),
+        rank: 2,
+    };
+    let found = |effect: usize, may_be: &[usize]| Found {
+        effect: EffectId(effect),
+        p_value: 0.001,
+        alike: vec![EffectId(effect)],
+        shares: may_be.iter().map(|&own| (EffectId(own), 0.5)).collect(),
+    };
+    let sets = vec![set(&[0, 3, 4]), set(&[1, 2]), set(&[5])];
+    assert_eq!(apart(sets.clone(), &[found(4, &[])]), sets);
+    let expected = [set(&[4, 3]), set(&[0]), set(&[2]), set(&[1]), set(&[5])];
+    assert_eq!(apart(sets.clone(), &[found(4, &[3, 4, 2])]), expected);
+    // Two effects of one set, each with its own causes.
+    let expected = [set(&[4]), set(&[0, 3]), set(&[1, 2]), set(&[5])];
+    assert_eq!(
+        apart(sets, &[found(0, &[0, 3]), found(4, &[4])]),
+        [&expected[1], &expected[0], &expected[2], &expected[3]].map(Clone::clone)
+    );
 }

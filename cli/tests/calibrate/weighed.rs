@@ -157,6 +157,32 @@ fn one_low_order_is_told_and_not_two_high_ones_and_the_contest_says_why() {
     assert!(flexure["behind"].as_f64().expect("nats") < 3.0, "{flexure}");
 }
 
+/// An elevation encoder that is oval by 40″, seen over 60°. What a disc off centre would do has columns that are 99.5 % alike, and the
+/// contest excludes it.
+#[test]
+fn an_oval_disc_is_one_effect_and_no_disc_off_centre() {
+    let mut drawn = Drawn(21);
+    let mut data = String::from("azimuth,elevation,x,y,z,number\n");
+    for row in 0..200 {
+        let [azimuth, elevation] = anywhere(&mut drawn);
+        let turned = elevation + 40.0 * ARCSEC * (2.0 * elevation - 0.4).cos();
+        let seen = sight(azimuth, turned, [15.0 * ARCSEC, -9.0 * ARCSEC], 0.0);
+        data += &line(&mut drawn, [azimuth, elevation], seen, &row.to_string());
+    }
+    let folder = Folder::new("weighed-oval");
+    measured(&folder, STUDY, &data);
+    let report = report(&folder);
+    assert_eq!(causes(&report), ["\"elevation\" \"Rx\""], "{:?}", report["effects"]);
+    assert_eq!(report["verdict"], "confounded", "{}", report["remaining"]);
+    let effect = &report["effects"][0];
+    assert_eq!(effect["names"][0], "encoder ellipticity of elevation", "{effect}");
+    let listed = effect["causes"].as_array().expect("a list");
+    assert!(
+        listed.iter().all(|cause| cause["share"].is_f64()),
+        "a cause that the contest excludes: {effect}"
+    );
+}
+
 #[test]
 fn a_suspected_cause_is_explained() {
     let folder = Folder::new("weighed-explain");

@@ -88,6 +88,11 @@ pub(super) fn sides(text: &str, mut tokens: Vec<Token>) -> Result<Vec<Vec<Token>
     Ok(sides.into_iter().map(trimmed).collect())
 }
 
+/// Whether lines end within these tokens, outside all brackets and environments.
+pub(super) fn has_lines(tokens: &[Token]) -> bool {
+    split(tokens, |kind| *kind == Kind::Row).len() > 1
+}
+
 /// `\quad (6)`, `\hfill (A.2)`: the number of an equation behind a wide space, or behind the end of mathematics.
 fn without_numbers(tokens: &mut Vec<Token>) -> Result<(), Unreadable> {
     let mut at = 0;

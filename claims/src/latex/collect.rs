@@ -88,15 +88,31 @@ pub fn equalities_of(text: &str) -> Vec<String> {
 /// Where the sides of one line of equalities stand, `a = b = c`; nothing where the text is of several lines or has no `=`.
 #[must_use]
 pub fn equal_sides(text: &str) -> Vec<Range<usize>> {
+    // Lines of a program are statements of their own.
+    if !text.contains('\\') && text.trim().contains('\n') {
+        return Vec::new();
+    }
     sides_of(text, |side| !layout::has_lines(side))
 }
 
-/// Where the sides stand, if there are several and all are as wanted.
+/// The equations that stand beside one another in one line, parted by wide spaces or columns; nothing where there is one.
+#[must_use]
+pub fn equations_beside(text: &str) -> Vec<String> {
+    let pieces = left::tokens(text).and_then(|tokens| layout::beside(text, tokens)).unwrap_or_default();
+    let place = |piece: &Vec<Token>| {
+        let place = piece.first()?.place.start..piece.last()?.place.end;
+        Some(written(text, place).to_owned())
+    };
+    let equations: Vec<String> = pieces.iter().filter_map(place).collect();
+    if equations.len() == pieces.len() && equations.len() > 1 { equations } else { Vec::new() }
+}
+
+/// Where the sides stand, if there are several and all are as wanted. What has a comma outside brackets is a list and no side.
 fn sides_of(text: &str, is_wanted: impl Fn(&[Token]) -> bool) -> Vec<Range<usize>> {
     let pieces = left::tokens(text).and_then(|tokens| layout::sides(text, tokens)).unwrap_or_default();
     let place = |side: &Vec<Token>| {
         let place = side.first()?.place.start..side.last()?.place.end;
-        Some(written_place(text, place)).filter(|_| is_wanted(side))
+        Some(written_place(text, place)).filter(|_| is_wanted(side) && !layout::is_list(side))
     };
     let sides: Vec<Range<usize>> = pieces.iter().filter_map(place).collect();
     if sides.len() == pieces.len() && sides.len() > 1 { sides } else { Vec::new() }

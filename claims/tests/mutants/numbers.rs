@@ -9,7 +9,7 @@ const PLANAR: &str = "chain Planar { const l1: length = 0.5; const l2: length = 
  observe tip: point(0, 0, 0) of fore; }";
 
 /// Mutants of each kind.
-const MADE: usize = 250;
+const MADE: usize = 200;
 
 fn uniform(random: &mut Random, from: f64, to: f64) -> f64 {
     from + (to - from) * random.below(1 << 20) as f64 / f64::from(1 << 20)

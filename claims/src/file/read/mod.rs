@@ -48,7 +48,7 @@ pub(super) fn claims(text: &str, file: &File, chain: &Chain, edge: &dyn Edge) ->
     let mut claims = Vec::new();
     let mut unread = Vec::new();
     for table in &file.claim {
-        let found = reader.claims_of(table);
+        let found = reader.claims_of(table.get_ref());
         let own = std::mem::take(&mut reader.mistakes);
         if own.is_empty() {
             claims.extend(found);

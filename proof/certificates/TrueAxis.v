@@ -611,3 +611,16 @@ Ltac values :=
   rewrite ?cos_neg, ?sin_neg, ?cos_0, ?sin_0, ?cos_PI2, ?sin_PI2, ?cos_PI, ?sin_PI;
   first [lra | field; nonzero | idtac].
 Ltac different H := exfalso; assert (P := PI_RGT_0); assert (Q := PI_4); lra.
+(* An equation of numbers, cosines and sines of single angles being given, and a premise at such numbers. *)
+Ltac numbers :=
+  rewrite ?cos_neg, ?sin_neg, ?cos_0, ?sin_0, ?cos_PI2, ?sin_PI2, ?cos_PI, ?sin_PI;
+  first [lra | field; nonzero].
+Ltac at_numbers := repeat match goal with E : _ = _ |- _ => rewrite E; clear E end;
+  rewrite ?cos_neg, ?sin_neg, ?cos_0, ?sin_0, ?cos_PI2, ?sin_PI2, ?cos_PI, ?sin_PI; lra.
+Ltac premise H := first [assumption | reflexivity | apply H; at_numbers | at_numbers].
+
+(* What an instrument without errors shows. *)
+Lemma shown_of k c p a b d v : follows k c p [a] [b] [d] -> a = x v -> b = y v -> d = z v -> shown k (c 0) p = v.
+Proof.
+  intros ((A & _) & (B & _) & (D & _)) E F G. destruct v, (shown k (c 0) p). cbn in *. congruence.
+Qed.

@@ -7,20 +7,22 @@ use super::{Certificate, Refusal, vector_to_order};
 use model_core::algebra::Poly;
 use model_core::chain::ObservableId;
 use model_core::expr::Expr;
-use model_core::identify::{Dependence, Identifiability, Ratio, put_in, special};
-use model_core::symbol::SymbolId;
+use model_core::identify::{Alike, Dependence, Identifiability, Ratio, put_in, special};
+use model_core::symbol::{SymbolId, SymbolKind};
 
 /// A theorem on what one error does, the others being zero, to first order.
 #[derive(Debug, Clone)]
 pub(super) struct Influence {
     observable: ObservableId,
-    error: SymbolId,
+    pub(super) error: SymbolId,
     /// The name of its module.
-    module: String,
+    pub(super) module: String,
     /// The symbols of its formula, in order.
-    symbols: Vec<SymbolId>,
+    pub(super) symbols: Vec<SymbolId>,
     /// What the error does.
-    formula: [Expr<()>; 3],
+    pub(super) formula: [Expr<()>; 3],
+    /// The same in canonical form.
+    pub(super) components: [Poly; 3],
 }
 
 impl Certificate<'_> {
@@ -73,26 +75,46 @@ impl Certificate<'_> {
         self.related(observable, &wanted, &title, dependence.error, &dependence.others)
     }
 
-    /// That some of the errors have no influence, and which of them are one and the same up to a factor.
-    ///
-    /// # Errors
-    /// [`Refusal`].
-    pub fn invisible_and_alike(
-        &mut self,
-        observable: ObservableId,
-        found: &Identifiability,
-        is_asked: impl Fn(SymbolId) -> bool,
-    ) -> Result<(), Refusal> {
-        for &error in found.invisible.iter().filter(|error| is_asked(**error)) {
-            self.without_influence(observable, error)?;
-        }
-        for group in &found.alike {
-            let Some((first, others)) = group.split_first() else { continue };
-            for other in others {
-                self.alike(observable, first.error, other.error, &other.ratio)?;
+    /// What an answer says of errors: which have no influence, which are the same as another or as several others, and that the rest
+    /// is independent. What Coq cannot be shown is noted with its reason, and the rest is proved.
+    pub fn identifiability(&mut self, found: &Identifiability, is_asked: impl Fn(SymbolId) -> bool) {
+        let asked: Vec<SymbolId> =
+            self.declared.chain().symbols_of(SymbolKind::Error).filter(|error| is_asked(*error)).collect();
+        let name = |own: &Self, error: SymbolId| own.declared.chain().symbol(error).name.clone();
+        for &observable in &found.observables {
+            for &error in found.invisible.iter().filter(|error| is_asked(**error)) {
+                let written = self.without_influence(observable, error);
+                self.note(&format!("that {} has no influence", name(self, error)), written);
+            }
+            for (first, other) in pairs(found) {
+                let written = self.alike(observable, first.error, other.error, &other.ratio);
+                let title =
+                    format!("that {} and {} are one", name(self, first.error), name(self, other.error));
+                self.note(&title, written);
+            }
+            for dependence in &found.combinations {
+                let written = self.dependent(observable, dependence);
+                let title = format!("that {} is a combination of others", name(self, dependence.error));
+                self.note(&title, written);
             }
         }
-        Ok(())
+        let is_dependent = |error: &SymbolId| {
+            found.invisible.contains(error)
+                || pairs(found).any(|(_, other)| other.error == *error)
+                || found.combinations.iter().any(|dependence| dependence.error == *error)
+        };
+        let rest: Vec<SymbolId> = asked.into_iter().filter(|error| !is_dependent(error)).collect();
+        if !rest.is_empty() {
+            let written = self.independent(&found.observables, &rest, &rest);
+            self.note("that the other errors are independent", written);
+        }
+    }
+
+    /// Notes what was refused.
+    fn note(&mut self, title: &str, written: Result<(), Refusal>) {
+        if let Err(refusal) = written {
+            self.not_certified(title, &refusal.to_string());
+        }
     }
 
     /// That an error is a sum of multiples of others, in one module.
@@ -166,7 +188,11 @@ impl Certificate<'_> {
     }
 
     /// The theorem on what one error does, which is stated and proved if it is not there yet.
-    fn influence(&mut self, observable: ObservableId, error: SymbolId) -> Result<Influence, Refusal> {
+    pub(super) fn influence(
+        &mut self,
+        observable: ObservableId,
+        error: SymbolId,
+    ) -> Result<Influence, Refusal> {
         let same = |influence: &&Influence| influence.observable == observable && influence.error == error;
         if let Some(found) = self.influences.iter().find(same) {
             return Ok(found.clone());
@@ -201,8 +227,17 @@ impl Certificate<'_> {
         section.prove("derived", "holds", "claim")?;
         let section = section.close_all(&module);
         self.finish_section(section, &module, "holds");
-        let influence = Influence { observable, error, module, symbols, formula };
+        let influence = Influence { observable, error, module, symbols, formula, components };
         self.influences.push(influence.clone());
         Ok(influence)
     }
+}
+
+/// The errors that are the same as the first of their group, each with that one.
+fn pairs(found: &Identifiability) -> impl Iterator<Item = (&Alike, &Alike)> {
+    found
+        .alike
+        .iter()
+        .filter_map(|group| group.split_first())
+        .flat_map(|(first, others)| others.iter().map(move |other| (first, other)))
 }

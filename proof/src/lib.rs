@@ -14,13 +14,16 @@ mod differs;
 mod equality;
 mod expanded;
 mod expression;
+mod independence;
 mod influence;
 mod jets;
 mod leaf;
+mod minor;
 mod names;
 mod passage;
 mod readings;
 mod section;
+mod shown;
 mod steps;
 mod witness;
 
@@ -84,6 +87,17 @@ pub enum Refusal {
     Unreadable {
         /// The formula.
         text: String,
+    },
+    /// Nowhere among rational points and quarter turns do the errors show themselves as independent.
+    #[error("no poses with rational values were found at which the errors show themselves as independent")]
+    NoMinor,
+    /// Too many unknowns for the linear arithmetic of Coq.
+    #[error("{unknowns} errors together; certificates solve for up to {limit}")]
+    ManyUnknowns {
+        /// How many there are.
+        unknowns: usize,
+        /// How many there may be.
+        limit: usize,
     },
     /// A difference that only values of a ramp would show.
     #[error(

@@ -62,12 +62,7 @@ impl Equality {
     /// Whether both are in the names of the chain alone and without quotients.
     #[must_use]
     pub fn is_plain(&self) -> bool {
-        let PrintedVector { components, halves, has_roots, truncated, turned } = &self.printed;
-        halves.is_empty()
-            && !has_roots
-            && !truncated
-            && !turned
-            && components.iter().all(|component| component.value.is_whole())
+        self.printed.is_plain()
     }
 }
 

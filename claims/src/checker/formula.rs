@@ -46,6 +46,17 @@ pub struct PrintedComponent {
 }
 
 impl PrintedVector {
+    /// Whether everything is in the names of the chain alone, without quotients, and nothing was dropped.
+    #[must_use]
+    pub fn is_plain(&self) -> bool {
+        let Self { components, halves, has_roots, truncated, turned } = self;
+        halves.is_empty()
+            && !has_roots
+            && !truncated
+            && !turned
+            && components.iter().all(|component| component.value.is_whole())
+    }
+
     /// Reads components, each a text, or a whole vector in one text. A fourth, homogeneous component has to be 0.
     ///
     /// LaTeX is told from the plain syntax of amounts by its backslashes, braces and Greek letters; a vector in one text

@@ -34,7 +34,7 @@ impl File {
 }
 
 /// One claim: one of the keys that name a kind, and what goes with it.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ClaimTable {
     pub name: Spanned<String>,
@@ -92,7 +92,7 @@ pub struct DhTable {
 }
 
 /// A pinhole camera.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CameraTable {
     pub focal: Spanned<Texts>,
@@ -104,7 +104,7 @@ pub struct CameraTable {
 }
 
 /// Numbers at one pose.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ValueTable {
     #[serde(default)]
@@ -117,7 +117,7 @@ pub struct ValueTable {
 }
 
 /// What a text leaves out because it is small.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct NeglectedTable {
     pub errors: Sizes,
@@ -125,7 +125,7 @@ pub struct NeglectedTable {
 }
 
 /// The second face, and what is taken of both.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FacesTable {
     pub second: BTreeMap<Spanned<String>, Spanned<String>>,
@@ -136,7 +136,7 @@ pub struct FacesTable {
 pub type Sizes = Spanned<BTreeMap<Spanned<String>, Spanned<Value>>>;
 
 /// An absolute size.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SizeTable {
     pub errors: Sizes,
@@ -147,7 +147,7 @@ pub struct SizeTable {
 }
 
 /// A bound on what the first order drops.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BoundTable {
     pub errors: Sizes,
@@ -155,7 +155,7 @@ pub struct BoundTable {
 }
 
 /// A comparison.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CompareTable {
     pub error: Spanned<String>,
@@ -166,7 +166,7 @@ pub struct CompareTable {
 }
 
 /// A count, or a rank.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CountTable {
     pub errors: Spanned<Texts>,
@@ -174,7 +174,7 @@ pub struct CountTable {
 }
 
 /// A text, or a list of texts.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub enum Texts {
     /// One, at the place of the whole value.
     One(String),

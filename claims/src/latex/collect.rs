@@ -1,9 +1,11 @@
 //! The symbols that a formula prints, as far as they can be told without a table.
 
+use std::ops::Range;
+
 use super::glyph::{self, Glyph};
 use super::layout;
 use super::left;
-use super::token::Kind;
+use super::token::{Kind, Token};
 
 /// Every symbol of a formula in one normal form, in the order in which they stand; Δ, δ and d belong to the letter behind them.
 #[must_use]
@@ -73,21 +75,56 @@ pub fn rows_of(text: &str) -> Vec<String> {
 /// `A = B = C` as `A = B` and `A = C`; an equation with one `=`, or none, as it is.
 #[must_use]
 pub fn equalities_of(text: &str) -> Vec<String> {
-    let pieces = left::tokens(text).and_then(|tokens| layout::sides(text, tokens)).unwrap_or_default();
-    let sides: Vec<&str> = pieces
-        .iter()
-        .filter_map(|side| Some(written(text, side.first()?.place.start..side.last()?.place.end)))
-        .collect();
+    let sides = sides_of(text, |_| true);
     match sides.as_slice() {
-        [name, first, rest @ ..] if !rest.is_empty() && sides.len() == pieces.len() => {
-            std::iter::once(first).chain(rest).map(|side| format!("{name} = {side}")).collect()
+        [name, first, rest @ ..] if !rest.is_empty() => {
+            let said = |side: &Range<usize>| format!("{} = {}", &text[name.clone()], &text[side.clone()]);
+            std::iter::once(first).chain(rest).map(said).collect()
         }
         _ => vec![text.to_owned()],
     }
 }
 
-/// The text of a place, and the braces that tokens leave out: those of typefaces, with the command before them.
-fn written(text: &str, place: std::ops::Range<usize>) -> &str {
+/// Where the sides of one line of equalities stand, `a = b = c`; nothing where the text is of several lines or has no `=`.
+#[must_use]
+pub fn equal_sides(text: &str) -> Vec<Range<usize>> {
+    // Lines of a program are statements of their own.
+    if !text.contains('\\') && text.trim().contains('\n') {
+        return Vec::new();
+    }
+    sides_of(text, |side| !layout::has_lines(side))
+}
+
+/// The equations that stand beside one another in one line, parted by wide spaces or columns; nothing where there is one.
+#[must_use]
+pub fn equations_beside(text: &str) -> Vec<String> {
+    let pieces = left::tokens(text).and_then(|tokens| layout::beside(text, tokens)).unwrap_or_default();
+    let place = |piece: &Vec<Token>| {
+        let place = piece.first()?.place.start..piece.last()?.place.end;
+        Some(written(text, place).to_owned())
+    };
+    let equations: Vec<String> = pieces.iter().filter_map(place).collect();
+    if equations.len() == pieces.len() && equations.len() > 1 { equations } else { Vec::new() }
+}
+
+/// Where the sides stand, if there are several and all are as wanted. What has a comma outside brackets is a list and no side.
+fn sides_of(text: &str, is_wanted: impl Fn(&[Token]) -> bool) -> Vec<Range<usize>> {
+    let pieces = left::tokens(text).and_then(|tokens| layout::sides(text, tokens)).unwrap_or_default();
+    let place = |side: &Vec<Token>| {
+        let place = side.first()?.place.start..side.last()?.place.end;
+        Some(written_place(text, place)).filter(|_| is_wanted(side) && !layout::is_list(side))
+    };
+    let sides: Vec<Range<usize>> = pieces.iter().filter_map(place).collect();
+    if sides.len() == pieces.len() && sides.len() > 1 { sides } else { Vec::new() }
+}
+
+/// The text of a place, and the braces that tokens leave out.
+fn written(text: &str, place: Range<usize>) -> &str {
+    text[written_place(text, place)].trim()
+}
+
+/// The place with the braces that tokens leave out: those of typefaces, with the command before them.
+fn written_place(text: &str, place: Range<usize>) -> Range<usize> {
     let (mut start, mut end) = (place.start, place.end);
     let count = |start: usize, end: usize, brace: char| text[start..end].matches(brace).count();
     while count(start, end, '{') < count(start, end, '}') {
@@ -99,7 +136,7 @@ fn written(text: &str, place: std::ops::Range<usize>) -> &str {
         let Some(close) = text[end..].find('}') else { break };
         end += close + 1;
     }
-    text[start..end].trim()
+    start..end
 }
 
 /// The name and the formula of `name = formula`, if the name is one symbol; what it depends on may stand behind it: `r(\theta)`.

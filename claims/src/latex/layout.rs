@@ -88,6 +88,42 @@ pub(super) fn sides(text: &str, mut tokens: Vec<Token>) -> Result<Vec<Vec<Token>
     Ok(sides.into_iter().map(trimmed).collect())
 }
 
+/// Equations that stand beside one another: parts between wide spaces, or between a comma and a column, that have each a sign of equality.
+pub(super) fn beside(text: &str, mut tokens: Vec<Token>) -> Result<Vec<Vec<Token>>, Unreadable> {
+    without_numbers(&mut tokens)?;
+    without_math(text, &mut tokens)?;
+    without_wrapping(&mut tokens);
+    if has_lines(&tokens) {
+        return Ok(Vec::new());
+    }
+    let is_comma = |kind: &Kind| matches!(kind, Kind::Mark(',' | ';'));
+    // A column behind a comma parts as a wide space does.
+    for at in 1..tokens.len() {
+        if tokens[at].kind == Kind::Mark('&') && is_comma(&tokens[at - 1].kind) {
+            tokens[at].kind = Kind::Wide;
+        }
+    }
+    let mut pieces = split(&tokens, |kind| *kind == Kind::Wide);
+    for piece in &mut pieces {
+        while piece.last().is_some_and(|token| is_comma(&token.kind) || token.kind == Kind::Mark('.')) {
+            piece.pop();
+        }
+    }
+    pieces.retain(|piece| !piece.is_empty());
+    let is_equation = |piece: &Vec<Token>| split(piece, |kind| *kind == Kind::Mark('=')).len() > 1;
+    Ok(if pieces.iter().all(is_equation) { pieces } else { Vec::new() })
+}
+
+/// Whether these tokens are a list: a comma stands outside all brackets.
+pub(super) fn is_list(tokens: &[Token]) -> bool {
+    split(tokens, |kind| matches!(kind, Kind::Mark(',' | ';'))).len() > 1
+}
+
+/// Whether lines end within these tokens, outside all brackets and environments.
+pub(super) fn has_lines(tokens: &[Token]) -> bool {
+    split(tokens, |kind| *kind == Kind::Row).len() > 1
+}
+
 /// `\quad (6)`, `\hfill (A.2)`: the number of an equation behind a wide space, or behind the end of mathematics.
 fn without_numbers(tokens: &mut Vec<Token>) -> Result<(), Unreadable> {
     let mut at = 0;

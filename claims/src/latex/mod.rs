@@ -40,7 +40,7 @@ use model_core::expr::Expr;
 use model_core::mistake::Mistake;
 use parser::{Matrix, Parser, Value};
 
-pub use collect::{definition_of, equalities_of, rows_of, symbols_in};
+pub use collect::{definition_of, equal_sides, equalities_of, equations_beside, rows_of, symbols_in};
 pub use parser::Notes;
 pub use printed::{PrintedSymbols, Turned};
 

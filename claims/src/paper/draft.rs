@@ -132,6 +132,14 @@ impl Drawn<'_> {
         if self.whole(checker, equation, &equation.text) {
             return;
         }
+        // `A = X,\quad B = Y`
+        let beside = latex::equations_beside(&equation.text);
+        if !beside.is_empty() {
+            for text in beside {
+                self.equation(checker, &Equation { text, ..equation.clone() });
+            }
+            return;
+        }
         // `A = B = C`, and a condition behind a wide space.
         let sides = latex::equalities_of(&equation.text);
         if sides.len() > 1 {

@@ -250,3 +250,55 @@ fn bold_letters_are_letters_of_their_own() {
         assert_eq!(verdict(SCANNER, &file(components)), "holds", "{components}");
     }
 }
+
+/// `A = B = C`: each formula is a claim.
+#[test]
+fn chains_of_equalities_are_as_many_claims() {
+    let said = |equal: &str| {
+        let found = verdicts("", &format!("[[claim]]\nname = \"a\"\nequal = {equal}\n"));
+        found.into_iter().map(|(name, verdict)| format!("{name}: {verdict}")).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        said(r"'\sin 2a = 2 \sin a \cos a = \sin a + \cos a'"),
+        ["a: equality 1: holds", "a: equality 2: differs"]
+    );
+    assert_eq!(said(r"'2 \sin a \cos a = \sin 2a'"), ["a: holds"]);
+    assert_eq!(
+        said(r"['\cos 2a', '1 - 2 \sin^2 a', '2 \cos^2 a - 1', '\cos^2 a']"),
+        ["a: equality 1: holds", "a: equality 2: holds", "a: equality 3: differs"]
+    );
+    assert_eq!(said(r"'\sin a'").len(), 1);
+    let chain = "chain L { const l: length; body b on ground { motion: Rz(q); motion_error: Rz(e); } observe p: point(l, 0, 0) of b; }";
+    let file = |components: &str| {
+        verdicts(
+            chain,
+            &format!(
+                "chain = \"a\"\n[symbols]\n'\\epsilon' = \"e\"\n[[claim]]\nname = \"a\"\ncomponents = {components}\n"
+            ),
+        )
+    };
+    let holds = |side: &str| (format!("a: side {side}"), "holds".to_owned());
+    let several =
+        r"['\Delta x = -l \epsilon \sin q = -\epsilon l \cos q \tan q', '\Delta y = l \epsilon \cos q', '0']";
+    assert_eq!(file(several), [holds("2"), holds("3")]);
+    let wrong = file(&several.replace(r"\tan q", ""));
+    assert_eq!(wrong, [holds("2"), ("a: side 3".to_owned(), "differs".to_owned())]);
+    let vector = r"'\Delta\mathbf{p} = \begin{bmatrix} -l \epsilon \sin q \\ l \epsilon \cos q \\ 0 \end{bmatrix} = \epsilon \begin{bmatrix} 0 \\ 0 \\ 1 \end{bmatrix} \times \begin{bmatrix} l \cos q \\ l \sin q \\ 0 \end{bmatrix}'";
+    assert_eq!(file(vector), [holds("2"), holds("3")]);
+}
+
+/// Equations in one line, and definitions among them.
+#[test]
+fn equations_beside_one_another_are_told_apart() {
+    let beside = |text: &str| claims::latex::equations_beside(text);
+    assert_eq!(
+        beside(r"\mathbf{u} = (a,\; b,\; 0)^{\mathsf T},\quad \mathbf{k}=(0,0,1)^{\mathsf T}."),
+        [r"\mathbf{u} = (a,\; b,\; 0)^{\mathsf T}", r"\mathbf{k}=(0,0,1)^{\mathsf T}"]
+    );
+    assert_eq!(beside(r"\begin{align} A &= b, & C &= d \end{align}").len(), 2);
+    assert!(beside(r"A = b \quad (6)").is_empty());
+    assert!(beside(r"A = b \\ C = d,\quad E = f").is_empty());
+    // A list is no chain.
+    assert_eq!(claims::latex::equalities_of(r"u = (a, b),\quad k = c").len(), 1);
+    assert_eq!(claims::latex::equalities_of(r"u = (a, b) = k").len(), 2);
+}

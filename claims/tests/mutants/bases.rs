@@ -38,7 +38,7 @@ pub struct Base {
 }
 
 /// Letters and the names that they stand for.
-const NAMES: [(&str, &str); 12] = [
+pub const NAMES: [(&str, &str); 12] = [
     ("q_1", "q1"),
     ("q_2", "q2"),
     ("l_1", "l1"),

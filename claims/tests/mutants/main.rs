@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may fail loudly")]
 
 mod bases;
+mod numbers;
+mod programs;
 #[path = "../file/support.rs"]
 mod support;
 mod tree;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use claims::checker::entries::{Entries, EntriesOf};
-use claims::checker::{Checker, Claim, Rank, RankSaid, Verdict, extended, only_of};
+use claims::checker::{Checker, Claim, Order, Rank, RankSaid, Verdict, extended, only_of};
 use claims::file::{Checked, Unread};
 use claims::show::{self, as_json, as_text, unread_as_json};
 use model_core::escape::{self, Screen};
@@ -185,26 +185,26 @@ fn certify(file: &ClaimsFile, checked: &[Checked<'_>]) -> Result<String, Failure
                 note_refusal(&mut certificate, &claim.name, written);
             }
             (Claim::Entries(entries), Verdict::Entries(_)) => {
-                let written = jacobian(&mut certificate, &declared, &claim.name, entries);
+                let written = of_entries(&mut certificate, &declared, &claim.name, entries, verdict.holds());
                 if let Err(why) = written {
                     certificate.not_certified(&claim.name, &why);
                 }
             }
             (Claim::Rank(rank), Verdict::Rank(verdict)) if verdict.holds => {
-                let written = null_vectors(&mut certificate, &declared, rank);
-                let left =
-                    "that the other errors are independent is decided, and not proved in Coq".to_owned();
-                certificate.not_certified(&claim.name, &written.err().unwrap_or(left));
+                let written = of_rank(&mut certificate, &declared, rank);
+                if let Err(why) = written {
+                    certificate.not_certified(&claim.name, &why);
+                }
             }
             (_, Verdict::Comparison(_) | Verdict::Size(_)) => {
                 certificate
                     .not_certified(&claim.name, "influences are measured in floating point, not proved");
             }
             (_, Verdict::Bound(_)) => {
-                certificate.not_certified(&claim.name, "the bound is proved in rounded numbers, not in Coq");
+                certificate.not_certified(&claim.name, "the bound is proved by interval arithmetic in rounded numbers, which Coq's library does not have");
             }
             (_, Verdict::Values(_)) => {
-                certificate.not_certified(&claim.name, "numbers are computed in floating point, not proved");
+                certificate.not_certified(&claim.name, "numbers are computed in floating point; Coq's library has no sines of decimal angles. Claim the formula");
             }
             (_, Verdict::Rank(_) | Verdict::Total(_) | Verdict::Entries(_)) => {
                 certificate.not_certified(&claim.name, "certificates speak of closed forms");
@@ -221,6 +221,28 @@ fn certify(file: &ClaimsFile, checked: &[Checked<'_>]) -> Result<String, Failure
         return Err(Failure::Input(why.to_owned()));
     }
     Ok(certificate.finish(&file.source.path.display().to_string()))
+}
+
+/// What is shown without errors, or a Jacobian.
+fn of_entries(
+    certificate: &mut Certificate<'_>,
+    declared: &Declared,
+    name: &str,
+    entries: &Entries,
+    holds: bool,
+) -> Result<(), String> {
+    match (&entries.of, entries.order) {
+        (EntriesOf::Shown(observable), Order::UpTo(0)) => certificate
+            .shown(name, *observable, &entries.printed, holds)
+            .map_err(|refusal| refusal.to_string()),
+        (EntriesOf::Shown(_), _) => {
+            Err("certificates speak of what is shown without errors; claim what the errors add by `components`".to_owned())
+        }
+        (EntriesOf::Frame { .. }, _) => Err(
+            "certificates speak of vectors, not of matrices; claim each column by `shows`, as a direction of the body".to_owned(),
+        ),
+        _ => jacobian(certificate, declared, name, entries),
+    }
 }
 
 /// A Jacobian, column by column.
@@ -249,25 +271,20 @@ fn jacobian(
     Ok(())
 }
 
-/// What makes a rank smaller than the number of errors: errors without influence, and combinations of others.
-fn null_vectors(certificate: &mut Certificate<'_>, declared: &Declared, rank: &Rank) -> Result<(), String> {
-    if matches!(rank.said, RankSaid::Separable(_)) {
-        return Err("that errors can be separated is decided, and not proved in Coq".to_owned());
-    }
+/// A rank, from above by errors without influence and combinations of others, and from below by independent errors.
+fn of_rank(certificate: &mut Certificate<'_>, declared: &Declared, rank: &Rank) -> Result<(), String> {
     let errors = &rank.errors;
-    let [observable] = rank.observables.as_slice() else {
-        return Err("certificates speak of what one observable shows".to_owned());
-    };
+    if let RankSaid::Separable(others) = &rank.said {
+        return certificate
+            .independent(&rank.observables, others, errors)
+            .map_err(|refusal| refusal.to_string());
+    }
     let chain = only_of(declared.chain(), errors).map_err(|error| error.to_string())?;
-    let found = identify(&chain, &[*observable]).map_err(|error| error.to_string())?;
+    let found = identify(&chain, &rank.observables).map_err(|error| error.to_string())?;
     if found.holds != Holds::Everywhere {
         return Err("the answer is at the declared values of the constants".to_owned());
     }
-    let refused = |refusal: Refusal| refusal.to_string();
-    certificate.invisible_and_alike(*observable, &found, |error| errors.contains(&error)).map_err(refused)?;
-    for dependence in &found.combinations {
-        certificate.dependent(*observable, dependence).map_err(refused)?;
-    }
+    certificate.identifiability(&found, |error| errors.contains(&error));
     Ok(())
 }
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use model_core::identify::{Holds, Identifiability};
 use model_core::{Chain, ObservableId};
-use proof::{Certificate, Declared, Refusal};
+use proof::{Certificate, Declared};
 use serde_json::json;
 use service::Source;
 use service::formulas::{Identified, identified};
@@ -80,34 +80,22 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     Ok(Answer::Done)
 }
 
-/// What has no influence, and what is one and the same, as a certificate.
+/// What has no influence, what is one and the same, and what is independent, as a certificate.
 fn certify(source: &Source, certified: &[Identifiability]) -> Result<String, Failure> {
     let declared = Declared::from_text(&source.text).map_err(|mistakes| source.mistakes(&mistakes))?;
     let mut certificate = Certificate::new(&declared);
-    let refused = |refusal: Refusal| Failure::Input(format!("no certificate: {refusal}; nothing is written"));
     for found in certified {
         if found.holds != Holds::Everywhere {
             let why = "the answer is at the declared values of the constants";
             certificate.not_certified(&named(declared.chain(), &found.observables), why);
             continue;
         }
-        for &observable in &found.observables {
-            certificate.invisible_and_alike(observable, found, |_| true).map_err(refused)?;
-            for dependence in &found.combinations {
-                if let Err(refusal) = certificate.dependent(observable, dependence) {
-                    let error = &declared.chain().symbol(dependence.error).name;
-                    certificate.not_certified(error, &refusal.to_string());
-                }
-            }
-        }
+        certificate.identifiability(found, |_| true);
     }
     if certificate.is_empty() {
-        let why =
-            "every error has an influence of its own; there is nothing to certify, and nothing is written";
-        return Err(Failure::Input(why.to_owned()));
+        let reasons: String = certificate.notes().iter().map(|note| format!("\n    {note}")).collect();
+        return Err(Failure::Input(format!("nothing can be certified, and nothing is written:{reasons}")));
     }
-    certificate
-        .not_certified("that the other errors can be told apart", "that is decided, and not proved in Coq");
     for note in certificate.notes() {
         terminal::note(format_args!("not certified: {note}"));
     }

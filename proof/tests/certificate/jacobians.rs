@@ -72,3 +72,32 @@ fn combinations_of_errors_are_proved() {
     // What each of the three does, and that one is a combination of the others.
     accepted("combination", &text, 4);
 }
+
+/// Rank from both sides: what has no influence or is a combination, and that the rest is independent.
+#[test]
+fn what_data_can_separate_is_proved_from_both_sides() {
+    let declared = declared(ARM);
+    let foot = observable(&declared, "foot");
+    let tip = observable(&declared, "tip");
+    let found = identify::identify(declared.chain(), &[foot]).expect("a closed form");
+    let mut certificate = Certificate::new(&declared);
+    certificate.identifiability(&found, |_| true);
+    let together = identify::identify(declared.chain(), &[foot, tip]).expect("a closed form");
+    certificate.identifiability(&together, |_| true);
+    assert!(certificate.notes().is_empty(), "{:?}", certificate.notes());
+    let text = certificate.finish("test");
+    assert!(text.contains("Module independent_on_foot."), "{text}");
+    assert!(text.contains("Module independent_on_foot_tip."), "{text}");
+    let theorems = text.matches("Print Assumptions").count();
+    accepted("identifiability", &text, theorems);
+}
+
+/// Whoever calls dependent errors independent finds no such poses.
+#[test]
+fn dependent_errors_are_not_proved_independent() {
+    let declared = declared(ARM);
+    let foot = observable(&declared, "foot");
+    let [u, v, w] = ["u", "v", "w"].map(|name| declared.chain().find_symbol(name).expect("declared"));
+    let mut certificate = Certificate::new(&declared);
+    assert_eq!(certificate.independent(&[foot], &[u, v, w], &[w]), Err(proof::Refusal::NoMinor));
+}

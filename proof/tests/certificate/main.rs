@@ -5,5 +5,6 @@ mod coq;
 mod jacobians;
 mod outside;
 mod readings;
+mod shown;
 mod statements;
 mod support;

@@ -1,7 +1,9 @@
 //! From the tables of a claims file to claims: names are looked up, formulas and quantities read, and every mistake of
-//! the file is collected before any claim is checked. What a printed formula says is read in `formulas`, what is measured
+//! the file is collected before any claim is checked. What a printed formula says is read in `formulas`, chains of
+//! equalities are taken apart in `chains`, what is measured
 //! in `measures`.
 
+mod chains;
 mod entries;
 mod formulas;
 mod kinds;
@@ -46,7 +48,7 @@ pub(super) fn claims(text: &str, file: &File, chain: &Chain, edge: &dyn Edge) ->
     let mut claims = Vec::new();
     let mut unread = Vec::new();
     for table in &file.claim {
-        let found = reader.claims_of(table);
+        let found = reader.claims_of(table.get_ref());
         let own = std::mem::take(&mut reader.mistakes);
         if own.is_empty() {
             claims.extend(found);
@@ -80,13 +82,19 @@ impl Reader<'_> {
     }
 
     /// What a table claims: several things where it prints a matrix.
-    fn claims_of(&mut self, table: &Spanned<ClaimTable>) -> Vec<NamedClaim> {
-        self.matrix(table.get_ref()).unwrap_or_else(|| self.claim(table).into_iter().collect())
+    fn claims_of(&mut self, claim: &ClaimTable) -> Vec<NamedClaim> {
+        match chains::parts(claim) {
+            Some(parts) => parts.iter().flat_map(|part| self.claims_of_one(part)).collect(),
+            None => self.claims_of_one(claim),
+        }
+    }
+
+    fn claims_of_one(&mut self, claim: &ClaimTable) -> Vec<NamedClaim> {
+        self.matrix(claim).unwrap_or_else(|| self.claim(claim).into_iter().collect())
     }
 
     /// One claim; `None` if it has a mistake, which is then noted.
-    fn claim(&mut self, table: &Spanned<ClaimTable>) -> Option<NamedClaim> {
-        let claim = table.get_ref();
+    fn claim(&mut self, claim: &ClaimTable) -> Option<NamedClaim> {
         let kinds: Vec<&Kind> = KINDS.iter().filter(|kind| (kind.place)(claim).is_some()).collect();
         let [kind] = kinds.as_slice() else {
             let message = if kinds.is_empty() {

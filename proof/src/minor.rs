@@ -10,6 +10,12 @@ const POSES: usize = 120;
 /// Choices of the constants that are tried.
 const CHOICES: usize = 4;
 
+/// A symbol with the values that may be put in.
+pub(super) type Choices = (SymbolId, Vec<Value>);
+
+/// Whether everything is defined at some values.
+pub(super) type IsDefined<'a> = dyn Fn(&[(SymbolId, Value)]) -> bool + 'a;
+
 /// A coordinate that observables show: what each unknown does to it.
 pub(super) type Shown = Vec<Expanded>;
 
@@ -20,15 +26,18 @@ pub(super) struct Asked<'a> {
     /// Which of the unknowns have to be determined.
     pub wanted: &'a [usize],
     /// Symbols that stay as they are, each with what may be put in.
-    pub constants: &'a [(SymbolId, Vec<Value>)],
+    pub constants: &'a [Choices],
     /// Symbols that vary, in the same way.
-    pub joints: &'a [(SymbolId, Vec<Value>)],
+    pub joints: &'a [Choices],
     /// Whether everything is defined at these values.
-    pub is_defined: &'a dyn Fn(&[(SymbolId, Value)]) -> bool,
+    pub is_defined: &'a IsDefined<'a>,
 }
 
 /// Values of symbols.
 pub(super) type Values = Vec<(SymbolId, Value)>;
+
+/// An equation: at which pose, of which coordinate, and what each unknown is multiplied by.
+pub(super) type Equation = (usize, usize, Vec<Rational>);
 
 /// Equations that suffice.
 pub(super) struct Minor {
@@ -36,8 +45,8 @@ pub(super) struct Minor {
     pub constants: Values,
     /// The poses, each a value for every joint.
     pub poses: Vec<Values>,
-    /// The equations: at which pose, of which coordinate, and what each unknown is multiplied by.
-    pub rows: Vec<(usize, usize, Vec<Rational>)>,
+    /// The equations.
+    pub rows: Vec<Equation>,
 }
 
 /// Finds equations that determine what is wanted.
@@ -47,7 +56,7 @@ pub(super) fn find(asked: &Asked<'_>) -> Option<Minor> {
 
 fn with_constants(asked: &Asked<'_>, choice: usize) -> Option<Minor> {
     // From the back: zeros and quarter turns, which come first, are special.
-    let pick = |(at, (symbol, values)): (usize, &(SymbolId, Vec<Value>))| {
+    let pick = |(at, (symbol, values)): (usize, &Choices)| {
         let place = (at + choice) % values.len().max(1);
         Some((*symbol, values.get(values.len().checked_sub(place + 1)?)?.clone()))
     };

@@ -52,8 +52,7 @@ pub fn asked(misread: &Misread) -> (Vec<String>, Vec<(&str, &str)>) {
     };
     match &misread.readings[..] {
         [one] if !one.lines.is_empty() => {
-            let kept =
-                "The study is written so. Is the header right and this wrong, change these lines back.";
+            let kept = "The study is written so. If this is wrong, change these lines back.";
             let lines = one.lines.iter().map(|line| (line.table, line.text.as_str())).collect();
             (vec![told(misread), kept.to_owned()], lines)
         }

@@ -151,7 +151,7 @@ fn a_goal_or_a_wanted_error_that_cannot_be_is_refused() {
         ("[goal]\nrms = 5\n", "without a unit"),
         ("[goal]\nrms = \"0 mm\"\n", "larger than zero"),
         ("[report]\nwanted = [\"tool_w*\"]\n", "nearest name is `tool_"),
-        ("[report]\nwanted = [\"x*\"]\n", "there are `base_x`"),
+        ("[report]\nwanted = [\"x*\"]\n", "there are `high`"),
         ("[report]\nwanted = [\"tool_w\"]\n", "did you mean `tool_"),
         ("[fit]\nfix = { tool_x = 0 }\n[report]\nwanted = [\"tool_x\"]\n", "is not estimated"),
     ] {

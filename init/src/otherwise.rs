@@ -2,8 +2,8 @@
 
 use model_core::escape::comments;
 
-/// The study with a comment on how its columns are read, and with the lines that read them so: table, key, line. Lines of keys that the
-/// table does not have stay out, as the comment says them too.
+/// The study with a comment on how its columns are read, and with the lines that read them so, each with its table. A line takes the place
+/// of the one with its key; without such a one it stays out.
 #[must_use]
 pub fn otherwise(study: &str, said: &[String], lines: &[(&str, &str)]) -> String {
     let key = |line: &str| line.split_once('=').map(|(key, _)| key.trim().to_owned());

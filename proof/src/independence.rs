@@ -68,7 +68,9 @@ impl Certificate<'_> {
         let formulas: Vec<Expr<()>> =
             influences.iter().flatten().flat_map(|influence| influence.formula.clone()).collect();
         let mut section = Section::of_numbers(self, &question, &formulas)?;
-        let minor = section.minor(errors, wanted, &influences)?;
+        let wanted: Vec<usize> =
+            wanted.iter().filter_map(|error| errors.iter().position(|other| other == error)).collect();
+        let minor = section.minor(errors, &wanted, &influences)?;
         section.open_plain(&module, &title, Some(&sizes.join(" ")))?;
         let of_kind = |is_constant: bool| {
             let is_error = |id: &SymbolId| errors.contains(id);
@@ -86,8 +88,6 @@ impl Certificate<'_> {
             section.write_row(row, &minor, &statement)?;
         }
         section.close_section();
-        let wanted: Vec<usize> =
-            wanted.iter().filter_map(|error| errors.iter().position(|other| other == error)).collect();
         section.write_theorem(&minor, &statement, &wanted)?;
         let section = section.close(&module);
         self.finish_section(section, &module, "holds");
@@ -96,11 +96,11 @@ impl Certificate<'_> {
 }
 
 impl Section<'_> {
-    /// Numbers at which what is shown determines the wanted errors.
+    /// Numbers at which what is shown determines the wanted errors, by their places among the errors.
     fn minor(
         &self,
         errors: &[SymbolId],
-        wanted: &[SymbolId],
+        wanted: &[usize],
         influences: &[Vec<Influence>],
     ) -> Result<Minor, Refusal> {
         let mut shown = Vec::new();
@@ -131,18 +131,11 @@ impl Section<'_> {
         let (constants, joints): (Vec<_>, Vec<_>) = free
             .map(|id| (*id, search.values(*id)))
             .partition(|(id, _)| chain.symbol(*id).kind == SymbolKind::Constant);
-        let wanted: Vec<usize> =
-            wanted.iter().filter_map(|error| errors.iter().position(|other| other == error)).collect();
         let is_defined = |values: &[(SymbolId, Value)]| {
             self.conditions.iter().all(|condition| condition.is_satisfied(values))
         };
-        let asked = Asked {
-            shown: &shown,
-            wanted: &wanted,
-            constants: &constants,
-            joints: &joints,
-            is_defined: &is_defined,
-        };
+        let asked =
+            Asked { shown: &shown, wanted, constants: &constants, joints: &joints, is_defined: &is_defined };
         minor::find(&asked).ok_or(Refusal::NoMinor)
     }
 

@@ -60,8 +60,7 @@ pub(super) fn rows(text: &str, mut tokens: Vec<Token>, list: bool) -> Result<Vec
     let mut rows: Vec<Row> = Vec::new();
     for line in split(&tokens, |kind| *kind == Kind::Row) {
         let line = within_brackets(line)?;
-        let pieces: Vec<Vec<Token>> =
-            if list { split(&line, |kind| matches!(kind, Kind::Mark(',' | ';'))) } else { vec![line] };
+        let pieces: Vec<Vec<Token>> = if list { split(&line, is_comma) } else { vec![line] };
         for piece in pieces {
             rows.push(named(piece, end)?);
         }
@@ -96,7 +95,6 @@ pub(super) fn beside(text: &str, mut tokens: Vec<Token>) -> Result<Vec<Vec<Token
     if has_lines(&tokens) {
         return Ok(Vec::new());
     }
-    let is_comma = |kind: &Kind| matches!(kind, Kind::Mark(',' | ';'));
     // A column behind a comma parts as a wide space does.
     for at in 1..tokens.len() {
         if tokens[at].kind == Kind::Mark('&') && is_comma(&tokens[at - 1].kind) {
@@ -114,9 +112,14 @@ pub(super) fn beside(text: &str, mut tokens: Vec<Token>) -> Result<Vec<Vec<Token
     Ok(if pieces.iter().all(is_equation) { pieces } else { Vec::new() })
 }
 
-/// Whether these tokens are a list: a comma stands outside all brackets.
+/// A comma or a semicolon, which parts a list.
+fn is_comma(kind: &Kind) -> bool {
+    matches!(kind, Kind::Mark(',' | ';'))
+}
+
+/// Whether a comma stands outside all brackets: then these tokens are a list.
 pub(super) fn is_list(tokens: &[Token]) -> bool {
-    split(tokens, |kind| matches!(kind, Kind::Mark(',' | ';'))).len() > 1
+    split(tokens, is_comma).len() > 1
 }
 
 /// Whether lines end within these tokens, outside all brackets and environments.

@@ -78,6 +78,8 @@ pub struct SampledColumn {
     pub unit_is_of_study: bool,
     /// Whether its header says none, so that a study may say another.
     pub unit_is_open: bool,
+    /// Its heading in the file.
+    pub heading: String,
     /// Its numbers as the file has them.
     pub written: Vec<f64>,
 }
@@ -194,6 +196,7 @@ impl Sample {
                     factor,
                     unit_is_of_study: plan.unit.is_some(),
                     unit_is_open: !rows.headed[column],
+                    heading: rows.headings[column].clone(),
                     written: rows.numbers[column].iter().map(|si| as_written(*si, factor)).collect(),
                 });
             }

@@ -14,12 +14,11 @@ mod trial;
 use model_core::SymbolId;
 use serde::Serialize;
 
-use fit::noise::resolution;
 use observe::SiUnit;
 use study::{Plan, Sample};
 
 use hypotheses::Written;
-pub use hypotheses::{Line, Reading};
+pub use hypotheses::{Heading, Line, Reading};
 pub use policy::THRESHOLDS;
 use policy::{CLEARED, MARGIN, ONE_OF, RATIO, RATIO_ROWS, SAME, STATES_MARGIN, STATES_RATIO};
 pub use prior::{Implausible, implausible};
@@ -48,6 +47,9 @@ pub struct Suspect {
     pub reading: Reading,
     /// What to write into the study.
     pub lines: Vec<Line>,
+    /// Headings of the file that state a unit in which their columns are not: no study can state another.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub headings: Vec<Heading>,
     /// Its score against that of the study's own reading.
     pub score: f64,
 }
@@ -66,14 +68,14 @@ pub fn misread(plan: &Plan, sample: &Sample) -> Option<Misread> {
     let as_read =
         again.into_iter().fold(as_read, |one, other| if other.total > one.total { other } else { one });
     let margin = best.total - as_read.total;
-    let rounding = resolution(&trial.own);
-    readings.retain(|tried| explains(&trial, tried, &as_read, rounding));
+    readings.retain(|tried| explains(&trial, tried, &as_read));
     let top = readings.first()?.score.total;
     readings.retain(|tried| top - tried.score.total <= ONE_OF);
     let after = readings.first()?.score.rms;
     let suspects = readings.into_iter().map(|Tried { hypothesis, score, .. }| Suspect {
         reading: hypothesis.reading,
         lines: hypothesis.lines.iter().map(Written::line).collect(),
+        headings: hypothesis.headings,
         score: score.total - as_read.total,
     });
     Some(Misread {
@@ -85,8 +87,10 @@ pub fn misread(plan: &Plan, sample: &Sample) -> Option<Misread> {
     })
 }
 
-/// Whether a reading explains what the study's own does not. What only rounding leaves, rad or m, there is nothing to explain of.
-fn explains(trial: &Trial<'_>, tried: &Tried, as_read: &Score, rounding: f64) -> bool {
+/// Whether a reading explains what another, the study's own or a simpler one, does not. What only rounding leaves there is nothing to
+/// explain of.
+fn explains(trial: &Trial<'_>, tried: &Tried, as_read: &Score) -> bool {
+    let rounding = trial.rounding;
     let Tried { hypothesis, score, .. } = tried;
     let ratio = if as_read.rms > rounding { score.scale / as_read.scale } else { 1.0 };
     let is_gross = match &hypothesis.reading {

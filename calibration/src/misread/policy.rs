@@ -18,6 +18,7 @@ pub(super) const ONE_OF: f64 = 4.0;
 /// A column is misread with this prior probability.
 pub(super) const RARE: f64 = 1e-3;
 /// Nats that a kind of mistake is rarer than a wrong unit or sign.
+pub(super) const HEADED_PRICE: f64 = 2.0;
 pub(super) const EXCHANGED_PRICE: f64 = 0.5;
 pub(super) const ORDER_PRICE: f64 = 0.5;
 pub(super) const PACKED_PRICE: f64 = 1.0;
@@ -42,7 +43,7 @@ pub(super) const STATES_ROWS: f64 = 20.0;
 pub(super) const STATES_SCATTERED: f64 = 0.5;
 /// An instrument is calibrated over this much of a joint, rad; a unit by which it moved less is rarer by the logarithm of the share.
 pub(super) const TRAVEL_RAD: f64 = PI / 3.0;
-/// Two mistakes at once are asked where the residual is more than this share of what was measured, or an error is beyond its limit.
+/// Two mistakes at once are asked where the study's own reading leaves more than this share of what was measured, or an error is beyond its limit.
 pub(super) const ROUGH_SHARE: f64 = 0.01;
 /// An axis is about so far from where the declaration puts it, rad; lengths and tools, as shares of the reach.
 pub(super) const TILT_RAD: f64 = PI / 180.0;
@@ -58,8 +59,8 @@ pub(super) const MOST_RESIDUAL_SHARE: f64 = 0.03;
 pub(super) const FITTED: usize = 9;
 pub(super) const PARTS: usize = 3;
 pub(super) const SCREENED_STEPS: usize = 4;
-/// Single mistakes, the best first, beside which a second one is tried.
-pub(super) const PAIRED: usize = 6;
+/// Single mistakes of each stage, the best first, beside which a second one is tried.
+pub(super) const PAIRED: usize = 3;
 
 const TRIALS: &str =
     "402 clean and 190 misread simulated studies of eight instruments, thresholds moved once between halves";
@@ -91,6 +92,12 @@ pub const THRESHOLDS: &[Threshold] = &[
         EXCHANGED_PRICE,
         "nats that exchanged columns are rarer than a wrong unit",
         TRIALS,
+    ),
+    Threshold::new(
+        "misread.headed",
+        HEADED_PRICE,
+        "nats that a unit which a heading states is rarer wrong",
+        "judgement: a heading is written beside its numbers, a study is not",
     ),
     Threshold::new(
         "misread.order",
@@ -149,7 +156,7 @@ pub const THRESHOLDS: &[Threshold] = &[
     Threshold::new(
         "misread.rough",
         ROUGH_SHARE,
-        "share of what was measured that one mistake must leave for two to be asked",
+        "share of what was measured that is left where two mistakes are asked",
         PRICED,
     ),
     Threshold::new(

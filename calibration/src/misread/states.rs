@@ -181,7 +181,14 @@ impl Rows<'_> {
             rows: rows.collect(),
             of: parted.is_other.len(),
         };
-        Hypothesis { reading, changes: Vec::new(), lines: Vec::new(), price, digits: 0.0 }
+        Hypothesis {
+            reading,
+            changes: Vec::new(),
+            lines: Vec::new(),
+            headings: Vec::new(),
+            price,
+            digits: 0.0,
+        }
     }
 }
 

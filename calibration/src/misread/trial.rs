@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use fit::noise::{Layout, NoiseOptions};
+use fit::noise::{Layout, NoiseOptions, resolution};
 use fit::{FitOptions, Model, residuals};
 use observe::Observations;
 use study::{Changed, Plan, Sample, SampledColumn};
@@ -11,7 +11,7 @@ use super::hypotheses::{self, Hypothesis, QUARTERS, both, from_row};
 use super::policy::{FITTED, PAIRED, PARTS, ROUGH_SHARE, SCREENED_STEPS};
 use super::prior::{Priors, indexed, measured_size};
 use super::score::{Score, jacobian, score};
-use super::states;
+use super::{explains, states};
 
 /// A reading of the data, and what it comes to.
 #[derive(Clone)]
@@ -31,6 +31,8 @@ pub(super) struct Trial<'a> {
     model: Model,
     /// The rows as the study reads them.
     pub own: Observations,
+    /// What rounding leaves of a residual, rad or m.
+    pub rounding: f64,
 }
 
 impl<'a> Trial<'a> {
@@ -45,7 +47,8 @@ impl<'a> Trial<'a> {
         let options = FitOptions { noise, other_starts: false, reference: None, ..plan.fit.clone() };
         let model = Model::new(&plan.chain, &own.poses, &plan.fit.estimate).ok()?;
         let priors = Priors::of(plan, &own);
-        Some(Self { plan, sample, columns: sample.columns(), priors, options, model, own })
+        let (columns, rounding) = (sample.columns(), resolution(&own));
+        Some(Self { plan, sample, columns, priors, options, model, own, rounding })
     }
 
     /// Whether a reading changes columns of joints: any, and all that it changes.
@@ -92,14 +95,17 @@ impl<'a> Trial<'a> {
         screened.extend(self.of_rows(&screened, as_read));
         best_first(&mut screened);
         let mut finalists = self.to_the_end(&screened);
-        let is_rough = |score: &Score, observations: &Observations| {
-            score.rms > ROUGH_SHARE * measured_size(observations) || self.priors.is_beyond(&score.values)
-        };
-        let best = finalists.first();
-        if is_rough(as_read, &self.own) && best.is_none_or(|best| is_rough(&best.score, &best.observations)) {
+        let is_rough =
+            as_read.rms > ROUGH_SHARE * measured_size(&self.own) || self.priors.is_beyond(&as_read.values);
+        if is_rough {
             let mut pairs = self.pairs(&screened);
             best_first(&mut pairs);
-            finalists.extend(self.to_the_end(&pairs));
+            let single = finalists.first().map(|best| best.score.clone());
+            let pairs = self.to_the_end(&pairs).into_iter();
+            // A second mistake explains what the first leaves.
+            finalists.extend(
+                pairs.filter(|pair| single.as_ref().is_none_or(|single| explains(self, pair, single))),
+            );
         }
         finalists.extend(self.two_states(as_read));
         best_first(&mut finalists);
@@ -119,11 +125,20 @@ impl<'a> Trial<'a> {
         finalists
     }
 
-    /// The best of single mistakes, each with every other, after a few steps from the errors of the first.
+    /// The best single mistakes of each stage, each with every other, after a few steps from the errors of the first. By itself a mistake of
+    /// one stage may hide those of another.
     fn pairs(&self, singles: &[Tried]) -> Vec<Tried> {
-        let pairs = singles.iter().take(PAIRED).enumerate().flat_map(|(at, one)| {
-            singles[at + 1..].iter().filter_map(move |other| {
-                Some((both::of(&one.hypothesis, &other.hypothesis)?, one.score.values.as_slice()))
+        let mut first: Vec<usize> = Vec::new();
+        for stage in both::STAGES {
+            let of_stage = |at: &usize| both::stage(&singles[*at].hypothesis.reading) == Some(stage);
+            first.extend((0..singles.len()).filter(of_stage).take(PAIRED));
+        }
+        let first = &first;
+        let pairs = first.iter().enumerate().flat_map(|(at, one)| {
+            let others = (0..singles.len()).filter(move |other| !first[..=at].contains(other));
+            let one = &singles[*one];
+            others.filter_map(move |other| {
+                Some((both::of(&one.hypothesis, &singles[other].hypothesis)?, one.score.values.as_slice()))
             })
         });
         let pairs: Vec<(Hypothesis, &[f64])> = pairs.collect();

@@ -162,6 +162,25 @@ fn gon_taken_for_degrees_are_told_and_the_line_to_write_mends_it() {
 }
 
 #[test]
+fn headings_that_state_another_unit_are_what_is_to_be_mended() {
+    let study = mount_study(
+        "azimuth = { column = 'a [deg]' }\nelevation = { column = 'e [deg]' }",
+        "azimuth = { column = 'ta', unit = 'deg' }\nelevation = { column = 'te', unit = 'deg' }",
+    );
+    let rows = mount_rows(521, 80);
+    let right = calibrated(MOUNT, &study, &table("a [deg],e [deg],ta,te", &rows));
+    assert!(right.diagnosis.verdict.is_usable(), "{:?}", right.diagnosis.cautions);
+    let in_gon: Vec<[f64; 4]> = rows.iter().map(|[a, e, ta, te]| [a / 0.9, e / 0.9, *ta, *te]).collect();
+    let made = calibrated(MOUNT, &study, &table("a [deg],e [deg],ta,te", &in_gon));
+    let first = &misread(&made).readings[0];
+    assert!(matches!(&first.reading, Reading::Unit { is: "gon", .. }), "{first:?}");
+    assert!(first.lines.is_empty(), "{first:?}");
+    let wanted = ["a [deg]", "e [deg]"].map(|heading| (heading, "gon"));
+    let headings: Vec<_> = first.headings.iter().map(|own| (own.heading.as_str(), own.is)).collect();
+    assert_eq!(headings, wanted);
+}
+
+#[test]
 fn packed_minutes_and_seconds_are_told_and_the_line_to_write_mends_them() {
     let packed = |degrees: f64| {
         let hundredths = (degrees.abs() * 360_000.0).round();

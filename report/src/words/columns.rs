@@ -3,7 +3,7 @@
 use super::numbers::short;
 use super::step::Step;
 use calibration::diagnose::{Caution, Diagnosis};
-use calibration::misread::{Implausible, Line, Misread, Reading, Suspect};
+use calibration::misread::{Heading, Implausible, Line, Misread, Reading, Suspect};
 use observe::SiUnit;
 
 /// Readings that are shown where several explain the data alike.
@@ -46,12 +46,12 @@ pub(super) fn told(misread: &Misread) -> String {
 /// readings explain the data, none is chosen.
 #[must_use]
 pub fn asked(misread: &Misread) -> (Vec<String>, Vec<(&str, &str)>) {
-    let each = |suspect: &Suspect| match &suspect.lines[..] {
-        [] => sentence(&suspect.reading),
-        lines => format!("{} {}", sentence(&suspect.reading), written(lines)),
+    let each = |suspect: &Suspect| {
+        let (lines, headings) = (written(&suspect.lines), headings(&suspect.headings));
+        format!("{} {lines}{headings}", sentence(&suspect.reading)).trim_end().to_owned()
     };
     match &misread.readings[..] {
-        [one] if !one.lines.is_empty() => {
+        [one] if !one.lines.is_empty() && one.headings.is_empty() => {
             let kept = "The study is written so. If this is wrong, change these lines back.";
             let lines = one.lines.iter().map(|line| (line.table, line.text.as_str())).collect();
             (vec![told(misread), kept.to_owned()], lines)
@@ -72,11 +72,12 @@ pub(super) fn steps(misread: &Misread) -> Vec<Step> {
 
 fn step(suspect: &Suspect) -> Step {
     let mut text = written(&suspect.lines);
+    text.push_str(&headings(&suspect.headings));
     if matches!(suspect.reading, Reading::TwoStates { .. }) {
         text.push_str(
             "Look for two targets, two prism constants or a play. Add a column with the kind of each row, and calibrate each kind alone. ",
         );
-    } else if suspect.lines.is_empty() {
+    } else if suspect.lines.is_empty() && suspect.headings.is_empty() {
         text.push_str("Correct these rows in the file. ");
     }
     text.push_str("Then calibrate again.");
@@ -86,7 +87,7 @@ fn step(suspect: &Suspect) -> Step {
 /// Lines to write, by their tables.
 fn written(lines: &[Line]) -> String {
     let mut text = String::new();
-    for table in ["columns", "observed"] {
+    for table in ["columns", "observed", "also.columns", "also.observed"] {
         let own = lines.iter().filter(|line| line.table == table);
         let own: Vec<&str> = own.map(|line| line.text.as_str()).collect();
         if !own.is_empty() {
@@ -94,6 +95,14 @@ fn written(lines: &[Line]) -> String {
         }
     }
     text
+}
+
+/// Headings to be mended in the file.
+fn headings(headings: &[Heading]) -> String {
+    let each = headings
+        .iter()
+        .map(|own| format!("The heading `{}` states another unit. Write {} there. ", own.heading, own.is));
+    each.collect()
 }
 
 /// Values that no small error has, and what to do.

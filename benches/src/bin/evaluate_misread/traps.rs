@@ -45,6 +45,18 @@ fn said_to_be(columns: Vec<&mut Column>, unit: &'static str) -> Names {
     vec![format!("{is}: {}", names.join(" "))]
 }
 
+/// The same where their headings say the unit that they are not in.
+fn headed(columns: Vec<&mut Column>, unit: &'static str) -> Names {
+    let mut names = Vec::new();
+    for column in columns {
+        let own = column.unit.take().unwrap_or("rad");
+        scaled(column, unit_si(own) / unit_si(unit));
+        column.name += &format!(" [{own}]");
+        names.push(column.name.clone());
+    }
+    vec![format!("{unit}: {}", names.join(" "))]
+}
+
 fn packed(columns: Vec<&mut Column>) -> Names {
     let mut names = Vec::new();
     for column in columns {
@@ -125,6 +137,12 @@ const INDICES: [&str; 6] = ["azimuth_index", "ha_index", "zero1", "pan_index", "
 
 pub const TRAPS: &[Trap] = &[
     Trap { name: "joints in gon", on: any, spoil: |data, _| written_in(angles(data), "gon") },
+    Trap { name: "joints in gon, headings say deg", on: any, spoil: |data, _| headed(angles(data), "gon") },
+    Trap {
+        name: "points in mm, headings say m",
+        on: point,
+        spoil: |data, _| headed(data.observed.iter_mut().collect(), "mm"),
+    },
     Trap {
         name: "one joint in rad",
         on: any,

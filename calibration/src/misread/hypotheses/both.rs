@@ -3,8 +3,11 @@
 use super::written::Written;
 use super::{Hypothesis, Reading};
 
+/// Every stage.
+pub(in crate::misread) const STAGES: [u8; 4] = [0, 1, 2, 3];
+
 /// Where a mistake stands on the way from a file's cell to a number: which column it is, its unit, its row, its sense and zero.
-fn stage(reading: &Reading) -> Option<u8> {
+pub(in crate::misread) fn stage(reading: &Reading) -> Option<u8> {
     match reading {
         Reading::Exchanged { .. } | Reading::Order { .. } => Some(0),
         Reading::Unit { .. } | Reading::Counts { .. } | Reading::Packed { .. } => Some(1),
@@ -29,6 +32,7 @@ pub(in crate::misread) fn of(one: &Hypothesis, other: &Hypothesis) -> Option<Hyp
         reading: Reading::Both { readings: [first, second].map(|own| Box::new(own.reading.clone())) },
         changes: first.changes.iter().chain(&second.changes).cloned().collect(),
         lines: Written::merged(&first.lines, &second.lines),
+        headings: first.headings.iter().chain(&second.headings).cloned().collect(),
         price: one.price + other.price,
         digits: one.digits + other.digits,
     })

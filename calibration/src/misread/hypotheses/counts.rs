@@ -27,6 +27,7 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
                 &column.name,
                 vec![("counts_per_turn", per_turn.to_string())],
             )],
+            headings: Vec::new(),
             price: COUNTS_PRICE,
             digits: 0.0,
         })

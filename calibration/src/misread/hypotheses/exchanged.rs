@@ -29,6 +29,7 @@ fn hypothesis(tried: &Tried<'_>, one: &SampledColumn, other: &SampledColumn) -> 
             Changed::all(other.place, Change::Exchanged(one.place)),
         ],
         lines: vec![reads(one, other), reads(other, one)],
+        headings: Vec::new(),
         price: EXCHANGED_PRICE,
         digits: 0.0,
     }

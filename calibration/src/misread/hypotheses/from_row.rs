@@ -56,6 +56,7 @@ pub(in crate::misread) fn of_rows(
     let changes = whole.changes.iter().map(|own| Changed { rows: part.clone(), ..own.clone() }).collect();
     let reading =
         Reading::FromRow { reading: Box::new(whole.reading.clone()), row: row_number(at), before: is_before };
-    let hypothesis = Hypothesis { reading, changes, lines: Vec::new(), price, ..whole.clone() };
+    let hypothesis =
+        Hypothesis { reading, changes, lines: Vec::new(), headings: Vec::new(), price, ..whole.clone() };
     Some((hypothesis, gain - price))
 }

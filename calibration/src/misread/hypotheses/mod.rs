@@ -52,6 +52,7 @@ pub(super) struct Hypothesis {
     pub reading: Reading,
     pub changes: Vec<Changed>,
     pub lines: Vec<Written>,
+    pub headings: Vec<Heading>,
     /// How improbable it is beforehand, nats.
     pub price: f64,
     /// What the digits alone say for it, nats.
@@ -170,10 +171,19 @@ pub enum Reading {
     },
 }
 
+/// A heading that states another unit than that of its column's numbers.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Heading {
+    /// As the file has it.
+    pub heading: String,
+    /// The unit of the numbers.
+    pub is: &'static str,
+}
+
 /// A line to write into a study.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Line {
-    /// The table: `columns` or `observed`.
+    /// The table: `columns` or `observed`, or that of the study's `[[also]]`.
     pub table: &'static str,
     /// `azimuth = { column = "az", unit = "gon" }`
     pub text: String,
@@ -233,10 +243,12 @@ fn names(columns: &[&SampledColumn]) -> Vec<String> {
 
 /// A line that reads a column so: `how` is what stands behind its name.
 fn line(plan: &Plan, column: &SampledColumn, file_column: &str, how: Vec<(&'static str, String)>) -> Written {
-    let (table, key) = match column.read {
-        Read::Reading(id) => ("columns", plan.chain.symbol(id).name.clone()),
-        Read::Observed(at) => ("observed", plan.observed_key(column.place.source, at).to_owned()),
+    let source = column.place.source;
+    let (tables, key) = match column.read {
+        Read::Reading(id) => (["columns", "also.columns"], plan.chain.symbol(id).name.clone()),
+        Read::Observed(at) => (["observed", "also.observed"], plan.observed_key(source, at).to_owned()),
     };
+    let table = tables[usize::from(source > 0)];
     Written { table, key, column: file_column.to_owned(), how }
 }
 

@@ -37,6 +37,7 @@ fn ordered(tried: &Tried<'_>, own: &[&SampledColumn], order: &'static str, from:
             .map(|(column, from)| Changed::all(column.place, Change::Exchanged(from.place)))
             .collect(),
         lines: pairs().map(|(column, from)| line(tried.plan, column, &from.name, Vec::new())).collect(),
+        headings: Vec::new(),
         price: ORDER_PRICE,
         digits: 0.0,
     }
@@ -52,6 +53,7 @@ fn inverse(tried: &Tried<'_>, parts: &[&SampledColumn]) -> Hypothesis {
         reading: Reading::Inverse { columns: names(parts) },
         changes: parts.iter().map(|own| Changed::all(own.place, Change::Reversed(0.0))).collect(),
         lines: parts.iter().map(reversed).collect(),
+        headings: Vec::new(),
         price: ORDER_PRICE,
         digits: 0.0,
     }

@@ -18,6 +18,7 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
             .iter()
             .map(|column| line(tried.plan, column, &column.name, vec![("notation", quoted(notation.name()))]))
             .collect(),
+        headings: Vec::new(),
         price: PACKED_PRICE,
         // Of a hundred pairs of digits sixty are below 60.
         digits: set.iter().map(|column| -0.6_f64.ln() * PAIRS * column.written.len() as f64).sum(),

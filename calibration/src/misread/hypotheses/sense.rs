@@ -25,6 +25,7 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
                 ),
             )],
             price,
+            headings: Vec::new(),
             digits: 0.0,
         };
         let name = || column.name.clone();

@@ -17,6 +17,7 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
                 reading: Reading::Shifted { columns: names(set), by },
                 changes: set.iter().map(|column| Changed::all(column.place, Change::Shift(by))).collect(),
                 lines: set.iter().map(|column| line(tried.plan, column, &column.name, how(column))).collect(),
+                headings: Vec::new(),
                 price: SHIFTED_PRICE,
                 digits: 0.0,
             });

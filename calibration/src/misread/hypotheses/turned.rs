@@ -24,6 +24,7 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
                 reading: Reading::Turned { column: column.name.clone(), by_deg },
                 changes: vec![Changed::all(column.place, Change::Moved(FRAC_PI_2 * f64::from(quarters)))],
                 lines: vec![line(tried.plan, column, &column.name, how)],
+                headings: Vec::new(),
                 price: TURNED_PRICE,
                 digits: 0.0,
             }

@@ -3,8 +3,8 @@
 use model_core::Quantity;
 use model_core::unit::Unit;
 
-use super::{Hypothesis, Reading, Tried, is_joint, line, named, names, quoted, sets, span};
-use crate::misread::policy::TRAVEL_RAD;
+use super::{Heading, Hypothesis, Reading, Tried, is_joint, line, named, names, quoted, sets, span};
+use crate::misread::policy::{HEADED_PRICE, TRAVEL_RAD};
 use study::{Change, Changed, SampledColumn};
 
 /// Units that files are written in.
@@ -21,15 +21,17 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
     all
 }
 
-/// Columns in a unit that none of them is read in. Where a header says the unit, the study cannot say another.
+/// Columns in a unit that none of them is read in. Where a heading says the unit, the study cannot say another, and it is seldom wrong.
 fn hypothesis(tried: &Tried<'_>, columns: &[&SampledColumn], unit: &str) -> Option<Hypothesis> {
     let unit = Unit::find(unit)?;
-    let is_open = |column: &&SampledColumn| column.factor != unit.in_si() && column.unit_is_open;
-    if !columns.iter().all(is_open) {
+    if columns.iter().any(|column| column.factor == unit.in_si()) {
         return None;
     }
+    let (open, headed): (Vec<&SampledColumn>, Vec<&SampledColumn>) =
+        columns.iter().partition(|column| column.unit_is_open);
     let how = || vec![("unit", quoted(unit.name()))];
-    let lines = columns.iter().map(|column| line(tried.plan, column, &column.name, how())).collect();
+    let lines = open.iter().map(|column| line(tried.plan, column, &column.name, how())).collect();
+    let heading = |column: &&SampledColumn| Heading { heading: column.heading.clone(), is: unit.name() };
     let read = columns.first().and_then(|column| named(column));
     Some(Hypothesis {
         reading: Reading::Unit { columns: names(columns), is: unit.name(), read },
@@ -38,13 +40,15 @@ fn hypothesis(tried: &Tried<'_>, columns: &[&SampledColumn], unit: &str) -> Opti
             .map(|column| Changed::all(column.place, Change::Factor(unit.in_si())))
             .collect(),
         lines,
-        price: columns
-            .iter()
-            .filter(|column| is_joint(tried.plan, column))
-            .map(|column| {
-                (short_of_travel(column, unit.in_si()) - short_of_travel(column, column.factor)).max(0.0)
-            })
-            .sum(),
+        headings: headed.iter().map(heading).collect(),
+        price: if headed.is_empty() { 0.0 } else { HEADED_PRICE }
+            + columns
+                .iter()
+                .filter(|column| is_joint(tried.plan, column))
+                .map(|column| {
+                    (short_of_travel(column, unit.in_si()) - short_of_travel(column, column.factor)).max(0.0)
+                })
+                .sum::<f64>(),
         digits: 0.0,
     })
 }

@@ -4,7 +4,6 @@ use super::{Line, quoted};
 
 #[derive(Debug, Clone)]
 pub(in crate::misread) struct Written {
-    /// The table: `columns` or `observed`.
     pub table: &'static str,
     pub key: String,
     /// The column of the file.

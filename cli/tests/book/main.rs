@@ -15,6 +15,7 @@ mod lessons;
 mod links;
 mod page;
 mod pictures;
+mod quoted;
 mod signatures;
 mod words;
 

@@ -4,6 +4,7 @@
 
 use std::fs;
 
+use super::page::{Step, steps};
 use super::support::{Folder, root};
 
 /// What draws a picture.
@@ -371,32 +372,26 @@ fn pictures_of_pages_are_what_the_commands_draw() {
     );
 }
 
-/// Pages that are tables of measurements, or of numbers that decide.
-const TABLES: [&str; 7] = [
+/// Pages without a picture: tables of measurements, answers of other programs, chains without an error.
+const WITHOUT: [&str; 7] = [
     "algebra/speed",
     "calibration/growth",
-    "calibration/instruments",
     "codegen/speed",
-    "diagnosis/blind",
-    "diagnosis/evaluation",
-    "diagnosis/thresholds",
+    "gallery/cylindrical-robot",
+    "gallery/peers",
+    "gallery/puma",
+    "gallery/screw-arm",
 ];
 
 #[test]
 fn every_reference_page_shows_a_picture() {
-    let rooms = "algebra calibration certificates checker codegen commands diagnosis language macro python";
-    let mut without = Vec::new();
-    for room in rooms.split(' ') {
-        for entry in fs::read_dir(root().join("docs/src").join(room)).expect("a room of the book") {
-            let path = entry.expect("readable").path();
-            if path.extension().is_some_and(|extension| extension == "md") {
-                let page = format!("{room}/{}", path.file_stem().expect("a name").to_string_lossy());
-                if !fs::read_to_string(&path).expect("a page").contains(".svg)") {
-                    without.push(page);
-                }
-            }
-        }
-    }
-    without.sort();
-    assert_eq!(without, TABLES);
+    let without = super::reference(|page| !page.contains(".svg)"));
+    assert_eq!(without, WITHOUT);
+}
+
+#[test]
+fn every_reference_page_has_an_example_that_runs() {
+    // The examples of the Python package are programs in Python.
+    let without = super::reference(|page| !steps(page).iter().any(|step| matches!(step, Step::Run { .. })));
+    assert_eq!(without, ["python/README"]);
 }

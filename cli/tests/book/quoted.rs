@@ -68,7 +68,7 @@ fn is_bound_to_the_book(line: &str) -> bool {
     let is_spoiled = formulas
         .match_indices('\\')
         .any(|(at, _)| formulas[at + 1..].chars().next().is_some_and(|next| next.is_ascii_punctuation()));
-    line.contains("{{#") || is_spoiled
+    line.contains("{{#") || line.contains(r"\\(") || is_spoiled
 }
 
 #[test]

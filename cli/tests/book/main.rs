@@ -15,7 +15,10 @@ mod lessons;
 mod links;
 mod page;
 mod pictures;
+#[path = "../../../tests/architecture/plain.rs"]
+mod plain;
 mod quoted;
+mod reference;
 mod signatures;
 mod words;
 
@@ -46,7 +49,7 @@ fn pages() -> Vec<PathBuf> {
 const OTHER: [&str; 5] = ["course", "teaching", "interactive", "SUMMARY", "literature"];
 
 /// The reference pages of which this is true, as `algebra/speed`.
-fn reference(is: impl Fn(&str) -> bool) -> Vec<String> {
+fn reference_pages(is: impl Fn(&str) -> bool) -> Vec<String> {
     let book = root().join("docs/src");
     let found = pages().into_iter().filter_map(|path| {
         let name = path.strip_prefix(&book).ok()?.with_extension("").display().to_string();

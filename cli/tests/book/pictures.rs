@@ -385,13 +385,14 @@ const WITHOUT: [&str; 7] = [
 
 #[test]
 fn every_reference_page_shows_a_picture() {
-    let without = super::reference(|page| !page.contains(".svg)"));
+    let without = super::reference_pages(|page| !page.contains(".svg)"));
     assert_eq!(without, WITHOUT);
 }
 
 #[test]
 fn every_reference_page_has_an_example_that_runs() {
     // The examples of the Python package are programs in Python.
-    let without = super::reference(|page| !steps(page).iter().any(|step| matches!(step, Step::Run { .. })));
+    let without =
+        super::reference_pages(|page| !steps(page).iter().any(|step| matches!(step, Step::Run { .. })));
     assert_eq!(without, ["python/README"]);
 }

@@ -8,9 +8,11 @@ use super::words::{GRADE, prose, sentences};
 /// Pages with words that a reader has to decode. The list only shrinks: a page that has none any more leaves it.
 const NOT_YET_PLAIN: [&str; 0] = [];
 
-/// What a page says in sentences: names of other fields are a list.
+/// What a page says in sentences of its own: the lists of the catalogue are the program's.
 fn said(page: &str) -> String {
-    let lines = page.lines().filter(|line| !line.starts_with("- **Names elsewhere.**"));
+    let is_list =
+        |line: &str| ["Names elsewhere", "Causes"].iter().any(|of| line.starts_with(&format!("- **{of}.**")));
+    let lines = page.lines().filter(|line| !is_list(line));
     prose(&lines.map(|line| format!("{line}\n")).collect::<String>())
 }
 

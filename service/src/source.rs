@@ -142,7 +142,7 @@ impl Source {
     }
 
     /// The declaration that a study or a file of claims names.
-    fn declaration_named(&self) -> Option<String> {
+    pub(crate) fn declaration_named(&self) -> Option<String> {
         let table: toml::Table = toml::from_str(&self.text).ok()?;
         Some(table.get("chain")?.as_str()?.to_owned())
     }

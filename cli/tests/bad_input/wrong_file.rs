@@ -49,6 +49,20 @@ fn a_study_where_a_declaration_is_needed() {
     }
 }
 
+#[test]
+fn a_study_where_errors_or_a_table_are_needed() {
+    let folder = mount("study-for-errors");
+    folder.write("study.toml", "chain = \"mount.chain\"\ndata = \"poses.csv\"\n");
+    let run = folder.trueaxis(&["bound", "mount.chain", "--sizes", "study.toml"]);
+    assert!(
+        refused(&run).contains("`study.toml` names a declaration, as a study does: give a file of errors")
+    );
+    for file in ["study.toml", "mount.chain"] {
+        let run = folder.trueaxis(&["init", file]);
+        assert!(refused(&run).contains(&format!("`{file}` is no table: give the table")), "{run}");
+    }
+}
+
 /// A mistake in either is still shown where it stands.
 #[test]
 fn a_mistake_in_the_right_file_has_its_place() {

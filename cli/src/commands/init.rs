@@ -160,6 +160,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         line(&study_file.to_string_lossy()),
         shell_word(&study_file.display().to_string())
     ))?;
+    terminal::note_how_to_begin();
     Ok(Answer::Done)
 }
 

@@ -81,7 +81,7 @@ impl Source {
     pub fn toml<T: DeserializeOwned>(&self) -> Result<T, Refusal> {
         toml::from_str(&self.text).map_err(|error| {
             let mistake = Mistake::new(error.span().unwrap_or_default(), error.message());
-            self.is_another().unwrap_or_else(|| self.mistake(mistake))
+            self.is_another().or_else(|| self.is_study()).unwrap_or_else(|| self.mistake(mistake))
         })
     }
 
@@ -108,6 +108,18 @@ impl Source {
     /// What to say where a file of another kind was given for one in TOML.
     fn is_another(&self) -> Option<Refusal> {
         self.is_declaration().or_else(|| self.is_table())
+    }
+
+    /// What to say where a study was given for another file in TOML.
+    fn is_study(&self) -> Option<Refusal> {
+        let table: toml::Table = toml::from_str(&self.text).ok()?;
+        let is_study = !self.is_instrument() && table.contains_key("chain") && table.contains_key("data");
+        let file = self.path.display();
+        is_study.then(|| {
+            Refusal::Input(format!(
+                "`{file}` is a study: give it to `trueaxis calibrate`, and claims or errors here"
+            ))
+        })
     }
 
     /// What to say where a table of data was given for a text: a row of numbers, and no key or declaration above it.
@@ -142,7 +154,7 @@ impl Source {
     }
 
     /// The declaration that a study or a file of claims names.
-    pub(crate) fn declaration_named(&self) -> Option<String> {
+    fn declaration_named(&self) -> Option<String> {
         let table: toml::Table = toml::from_str(&self.text).ok()?;
         Some(table.get("chain")?.as_str()?.to_owned())
     }

@@ -53,10 +53,10 @@ fn a_study_where_a_declaration_is_needed() {
 fn a_study_where_errors_or_a_table_are_needed() {
     let folder = mount("study-for-errors");
     folder.write("study.toml", "chain = \"mount.chain\"\ndata = \"poses.csv\"\n");
-    let run = folder.trueaxis(&["bound", "mount.chain", "--sizes", "study.toml"]);
-    assert!(
-        refused(&run).contains("`study.toml` names a declaration, as a study does: give a file of errors")
-    );
+    for asked in [&["bound", "mount.chain", "--sizes", "study.toml"][..], &["check", "study.toml"]] {
+        let run = folder.trueaxis(asked);
+        assert!(refused(&run).contains("`study.toml` is a study: give it to `trueaxis calibrate`"), "{run}");
+    }
     for file in ["study.toml", "mount.chain"] {
         let run = folder.trueaxis(&["init", file]);
         assert!(refused(&run).contains(&format!("`{file}` is no table: give the table")), "{run}");

@@ -77,15 +77,6 @@ pub struct FoundOver {
 /// The ranges of readings by names, each with its place.
 pub(crate) type Ranges = BTreeMap<Spanned<String>, Spanned<[Amount; 2]>>;
 
-/// What to say where a study or claims were given for a file of errors.
-fn study(source: &Source) -> Option<Refusal> {
-    source.declaration_named().filter(|named| named.ends_with(".chain"))?;
-    Some(Refusal::Input(format!(
-        "`{}` names a declaration, as a study does: give a file of errors here, with lines such as \"*\" = \"10 arcsec\"",
-        source.path.display()
-    )))
-}
-
 /// What a file says of errors, as it is written: a file of its own, or a part of an instrument file.
 pub(crate) struct Given<'s> {
     /// The text that all places are in.
@@ -109,8 +100,7 @@ impl<'s> Given<'s> {
                 source.path.display()
             )));
         }
-        let all: BTreeMap<Spanned<String>, Spanned<Entry>> =
-            source.toml().map_err(|refusal| study(source).unwrap_or(refusal))?;
+        let all: BTreeMap<Spanned<String>, Spanned<Entry>> = source.toml()?;
         let mut given = Self { source, amounts: Entries::new(), ranges: Ranges::new() };
         for (name, entry) in all {
             let place = entry.span();

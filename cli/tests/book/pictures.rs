@@ -37,10 +37,6 @@ const fn budget(chain: &'static str, path: &'static str, observable: &'static st
     Budget { chain, path, observable, sizes: SIZES, steps: "1" }
 }
 
-const fn of_mount(sizes: &'static str, steps: &'static str) -> Drawn {
-    Budget { chain: MOUNT, path: OVER_THE_SKY, observable: "pointing", sizes, steps }
-}
-
 const fn report(study: &'static str, words: &'static str) -> Drawn {
     Report { study, words }
 }

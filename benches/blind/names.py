@@ -140,7 +140,7 @@ def main():
     parser.add_argument("--each", action="store_true")
     parser.add_argument("--command", default=str(ROOT / "target/release/trueaxis"))
     arguments = parser.parse_args()
-    print("| joints | SNR | an effect accepted | the planted one is told | mean size of the set | nothing more in the amended chain |\n"
+    print("| joints | SNR | an effect accepted | the planted one is named | mean size of the set | nothing more in the amended chain |\n"
           "|---|---|---|---|---|---|")
     with ThreadPoolExecutor(2) as pool:
         for snr in arguments.snr:

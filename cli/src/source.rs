@@ -148,9 +148,11 @@ pub fn not_readable(path: &Path, error: &io::Error) -> Failure {
     let mut failure = Failure::read(path, error);
     if let Failure::Read { why, .. } = &mut failure
         && error.kind() == io::ErrorKind::NotFound
-        && let Some(near) = nearest_file(path)
     {
-        *why = format!("{why}; did you mean `{}`?", near.display());
+        *why = nearest_file(path).map_or_else(
+            || format!("{why}; check its name and its folder"),
+            |near| format!("{why}; did you mean `{}`?", near.display()),
+        );
     }
     failure
 }

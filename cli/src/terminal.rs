@@ -112,6 +112,21 @@ pub fn note(message: impl Display) {
     }
 }
 
+/// Says on a terminal how to begin the next command where a shell does not find `trueaxis`: what was printed begins with this name.
+pub fn note_how_to_begin() {
+    let name = format!("trueaxis{}", std::env::consts::EXE_SUFFIX);
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let is_found = std::env::split_paths(&path).any(|folder| folder.join(&name).is_file());
+    if is_found || !std::io::stderr().is_terminal() {
+        return;
+    }
+    let typed = std::env::args_os().next().unwrap_or_default();
+    note(format_args!(
+        "`trueaxis` is not on your path: type {} in its place, or install it with `cargo install --path cli`",
+        shell_word(&typed.to_string_lossy())
+    ));
+}
+
 /// A message behind the word that says what it is.
 fn say_styled(style: impl Display, word: &str, message: &str) {
     let mut said = Screen::default();

@@ -66,7 +66,7 @@ impl Source {
                 self.path.display(),
                 self.beside(Path::new(&named)).display()
             )),
-            None => self.mistakes(&mistakes),
+            None => self.is_table().unwrap_or_else(|| self.mistakes(&mistakes)),
         })?;
         for caution in model_core::caution::cautions(&chain) {
             warn(format!("{}: {caution}", self.path.display()));
@@ -81,7 +81,7 @@ impl Source {
     pub fn toml<T: DeserializeOwned>(&self) -> Result<T, Refusal> {
         toml::from_str(&self.text).map_err(|error| {
             let mistake = Mistake::new(error.span().unwrap_or_default(), error.message());
-            self.is_declaration().unwrap_or_else(|| self.mistake(mistake))
+            self.is_another().or_else(|| self.is_study()).unwrap_or_else(|| self.mistake(mistake))
         })
     }
 
@@ -91,7 +91,7 @@ impl Source {
     /// Every mistake of the study, each with its place.
     pub fn study(&self) -> Result<Study, Refusal> {
         Study::from_text(&self.text)
-            .map_err(|mistakes| self.is_declaration().unwrap_or_else(|| self.mistakes(&mistakes)))
+            .map_err(|mistakes| self.is_another().unwrap_or_else(|| self.mistakes(&mistakes)))
     }
 
     /// Whether it is an instrument file: it says so with its first key, damaged or not; where it is whole, with any key.
@@ -103,6 +103,37 @@ impl Source {
         let has_key =
             || toml::from_str(&self.text).is_ok_and(|table: toml::Table| table.contains_key(INSTRUMENT));
         behind.is_some_and(|behind| behind.trim_start().starts_with('=')) || has_key()
+    }
+
+    /// What to say where a file of another kind was given for one in TOML.
+    fn is_another(&self) -> Option<Refusal> {
+        self.is_declaration().or_else(|| self.is_table())
+    }
+
+    /// What to say where a study was given for another file in TOML.
+    fn is_study(&self) -> Option<Refusal> {
+        let table: toml::Table = toml::from_str(&self.text).ok()?;
+        let is_study = !self.is_instrument() && table.contains_key("chain") && table.contains_key("data");
+        let file = self.path.display();
+        is_study.then(|| {
+            Refusal::Input(format!(
+                "`{file}` is a study: give it to `trueaxis calibrate`, and claims or errors here"
+            ))
+        })
+    }
+
+    /// What to say where a table of data was given for a text: a row of numbers, and no key or declaration above it.
+    fn is_table(&self) -> Option<Refusal> {
+        let is_number = |cell: &str| cell.trim().replace(',', ".").parse::<f64>().is_ok();
+        let is_row = |line: &&str| {
+            [',', ';', '\t'].iter().any(|mark| line.contains(*mark) && line.split(*mark).all(is_number))
+        };
+        let above = self.text.lines().take_while(|line| !line.contains(['=', '{']));
+        above.skip(1).find(is_row)?;
+        let file = self.path.display();
+        Some(Refusal::Input(format!(
+            "`{file}` is a table of data: begin with `trueaxis init {file}`, which writes a declaration and a study for it"
+        )))
     }
 
     /// What to say where a declaration was given for a file that names one.

@@ -125,7 +125,7 @@ fn mistake(error: &Error) -> Mistake<Range<usize>> {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("write one of {}", expected.join(", ")),
             };
-            Mistake::new(place, format!("`{found}` is no {key} here")).with_help(help)
+            Mistake::new(place, format!("unknown {key} `{found}`")).with_help(help)
         }
         _ => Mistake::new(place, message.trim_end()),
     }

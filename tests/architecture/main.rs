@@ -4,6 +4,7 @@ mod circles;
 mod dependencies;
 mod escaping;
 mod house_rules;
+mod plain;
 mod registries;
 mod rooms;
 mod sources;

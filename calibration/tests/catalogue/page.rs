@@ -78,6 +78,39 @@ fn by_field(mut names: Vec<String>) -> String {
     names.join(", ")
 }
 
+/// A study that chooses from the catalogue; the book's test runs it.
+const EXAMPLE: &str = "\
+This study looks for effects of two families only:
+
+<!-- file: few.toml -->
+```toml
+chain = \"examples/course/mount.chain\"
+data  = \"examples/course/secret.csv\"
+
+[columns]
+azimuth   = { column = \"azimuth [deg]\", unit = \"deg\" }
+elevation = { column = \"elevation [deg]\", unit = \"deg\" }
+
+[observed]
+kind = \"direction\"
+x = \"east\"
+y = \"north\"
+z = \"up\"
+
+[search]
+effects = [\"encoder\", \"gravity\"]
+```
+
+```sh
+trueaxis calibrate few.toml --out few
+```
+
+```text
+EFFECT FOUND, 3 POSSIBLE CAUSES
+…
+```
+";
+
 fn page() -> String {
     let mut told_before: Vec<String> = Vec::new();
     let mut page = String::from(
@@ -91,8 +124,9 @@ fn page() -> String {
          that has such an effect, and a report gives it beside every one. Signs follow each field's conventions and \
          are no part of a name.\n\n\
          Pictures show an effect of the family on an alt-azimuth mount: where the line of sight goes from each dot, over the sky, the \
-         horizon as the rim, north up and east to the right.\n",
+         horizon as the rim, north up and east to the right.\n\n",
     );
+    page.push_str(EXAMPLE);
     for family in FAMILIES {
         let mut name = family.name.to_owned();
         name[..1].make_ascii_uppercase();

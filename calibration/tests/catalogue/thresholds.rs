@@ -29,11 +29,17 @@ fn page() -> String {
     let mut page = String::from(
         "# The numbers that decide\n\n\
          <!-- Written by the tables: UPDATE_THRESHOLDS=1 cargo test -p trueaxis-calibration --test catalogue thresholds -->\n\n\
-         Whether something is told hangs on numbers: how much better an explanation must be, how large a value may be. This page \
+         The report depends on numbers: how much better an explanation must be, how large a value may be. This page \
          lists them. Each has its source: a paper, or the simulation that chose it. `policy` in `report.json` has those that \
          decided in one calibration.\n\n\
          A *nat* is a unit of evidence: one nat makes odds 2.7 times larger. *Prototype* means programs in NumPy by which the method \
          was chosen before it was written here, on simulated data. *Specification* means a judgement, without a measurement.\n\n\
+         An effect is accepted if it predicts held-out data better. This one, of `examples/objects/walls.toml`, does so by an eighth:\n\n\
+         ![Error on held-out data, before and after the effect](thresholds.svg)\n\n\
+         ```sh\n\
+         trueaxis calibrate examples/objects/walls.toml --out result\n\
+         ```\n\n\
+         `result/report.json` has the numbers that decided, under `policy`.\n\n\
          ## Misread columns\n\n\
          These numbers decide whether a column is called misread, and whether a value is too large to be a finding.\n\n",
     );
@@ -46,7 +52,7 @@ fn page() -> String {
     table(&mut page, of_held_out());
     page.push_str(
         "\n## The contest of effects\n\n\
-         These numbers decide which explanation of a residual is told. `name_margin` grows where a study asks for fewer false \
+         These numbers decide which explanation of a residual is reported. `name_margin` grows where a study asks for fewer false \
          alarms: `[search] false_alarm = 0.01` adds the logarithm of five.\n\n",
     );
     table(&mut page, &of_contests());

@@ -135,6 +135,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     if let (TextOrJson::Text, Some(explained)) = (arguments.format, explained) {
         terminal::print(explained)?;
     }
+    terminal::note_how_to_begin();
     Ok(answer(reported.calibration))
 }
 

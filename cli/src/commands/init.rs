@@ -160,6 +160,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         line(&study_file.to_string_lossy()),
         shell_word(&study_file.display().to_string())
     ))?;
+    terminal::note_how_to_begin();
     Ok(Answer::Done)
 }
 
@@ -237,6 +238,12 @@ fn not_there<'p>(files: impl IntoIterator<Item = &'p PathBuf>) -> Result<(), Fai
 
 /// The data as they are looked at.
 fn look(data: &Path, site: Option<Site>) -> Result<Look, Failure> {
+    if data.extension().is_some_and(|ending| ending == "chain" || ending == "toml") {
+        return Err(Failure::Input(format!(
+            "`{}` is no table: give the table of measured data, as in `trueaxis init data.csv`",
+            data.display()
+        )));
+    }
     let file = open(data).map_err(|error| Failure::Input(error.to_string()))?;
     let options = Options { site, ..Options::default() };
     let mut reader = formats::open(file, &data.display().to_string(), &options)

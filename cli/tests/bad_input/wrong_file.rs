@@ -19,6 +19,23 @@ fn a_declaration_where_a_study_claims_or_errors_are_needed() {
 }
 
 #[test]
+fn a_table_where_a_text_is_needed() {
+    let folder = mount("table-for-a-text");
+    folder.write("sky.csv", "azimuth [deg];elevation [deg]\n10,5;20\n11,5;30\n");
+    for asked in [
+        &["calibrate", "sky.csv"][..],
+        &["check", "sky.csv"],
+        &["derive", "sky.csv"],
+        &["bound", "mount.chain", "--sizes", "sky.csv"],
+    ] {
+        let run = folder.trueaxis(asked);
+        let told = refused(&run);
+        assert!(told.contains("`sky.csv` is a table of data: begin with `trueaxis init sky.csv`"), "{run}");
+        assert_eq!(told.lines().count(), 1, "{run}");
+    }
+}
+
+#[test]
 fn a_study_where_a_declaration_is_needed() {
     let folder = mount("study-for-a-declaration");
     folder.write("study.toml", "chain = \"mount.chain\"\ndata = \"poses.csv\"\n");
@@ -29,6 +46,20 @@ fn a_study_where_a_declaration_is_needed() {
         let run = folder.trueaxis(asked);
         let told = refused(&run);
         assert!(told.contains("`study.toml` is no declaration, but names one: give `mount.chain`"), "{run}");
+    }
+}
+
+#[test]
+fn a_study_where_errors_or_a_table_are_needed() {
+    let folder = mount("study-for-errors");
+    folder.write("study.toml", "chain = \"mount.chain\"\ndata = \"poses.csv\"\n");
+    for asked in [&["bound", "mount.chain", "--sizes", "study.toml"][..], &["check", "study.toml"]] {
+        let run = folder.trueaxis(asked);
+        assert!(refused(&run).contains("`study.toml` is a study: give it to `trueaxis calibrate`"), "{run}");
+    }
+    for file in ["study.toml", "mount.chain"] {
+        let run = folder.trueaxis(&["init", file]);
+        assert!(refused(&run).contains(&format!("`{file}` is no table: give the table")), "{run}");
     }
 }
 

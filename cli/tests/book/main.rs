@@ -15,6 +15,10 @@ mod lessons;
 mod links;
 mod page;
 mod pictures;
+#[path = "../../../tests/architecture/plain.rs"]
+mod plain;
+mod quoted;
+mod reference;
 mod signatures;
 mod words;
 
@@ -39,6 +43,20 @@ fn pages() -> Vec<PathBuf> {
     }
     pages.sort();
     pages
+}
+
+/// Rooms of the book that are no reference.
+const OTHER: [&str; 5] = ["course", "teaching", "interactive", "SUMMARY", "literature"];
+
+/// The reference pages of which this is true, as `algebra/speed`.
+fn reference_pages(is: impl Fn(&str) -> bool) -> Vec<String> {
+    let book = root().join("docs/src");
+    let found = pages().into_iter().filter_map(|path| {
+        let name = path.strip_prefix(&book).ok()?.with_extension("").display().to_string();
+        let is_other = OTHER.iter().any(|room| name.starts_with(room));
+        (!is_other && is(&fs::read_to_string(path).expect("a page"))).then_some(name)
+    });
+    found.collect()
 }
 
 fn copy(from: &Path, to: &Path) {

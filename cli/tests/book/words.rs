@@ -4,13 +4,11 @@ use std::fs;
 
 use super::decks;
 use super::grade::grade;
+use super::plain::LONGEST;
 use super::support::root;
 
-/// The years of school that a lesson may ask for, by Flesch and Kincaid.
-const GRADE: f64 = 9.0;
-
-/// Most words of a sentence.
-const LONGEST: usize = 30;
+/// The years of school that a page may ask for, by Flesch and Kincaid.
+pub const GRADE: f64 = 9.0;
 
 /// Terms in the order of the lessons that define them. Goals say what comes, and count for no place.
 const TERMS: [(usize, &[&str]); 11] = [
@@ -40,7 +38,7 @@ const TERMS: [(usize, &[&str]); 11] = [
 ];
 
 /// What a page says: no code, headings, tables, pictures, displayed formulas, sources, addresses and goals; spans of code and formulas are one word.
-fn prose(page: &str) -> String {
+pub fn prose(page: &str) -> String {
     let (mut said, mut is_code, mut is_formula, mut is_goals) = (String::new(), false, false, false);
     for line in page.lines() {
         let start = line.trim_start();
@@ -77,7 +75,7 @@ fn without(text: &str, from: &str, to: &str) -> String {
 }
 
 /// Sentences as lists of words of two letters at least, without numbers.
-fn sentences(prose: &str) -> Vec<Vec<String>> {
+pub fn sentences(prose: &str) -> Vec<Vec<String>> {
     let mut found = vec![Vec::new()];
     for line in prose.lines() {
         let start = line.trim_start();

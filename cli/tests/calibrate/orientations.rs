@@ -226,7 +226,7 @@ fn what_is_no_orientation_is_told() {
     let of = |own: &str| refused(kind, &keys(own), "c,a\n0,0\n");
     says(
         &of("yaw = \"psi\""),
-        &["`yaw` is no key here", "three angles turn about other axes", "`rx`, `ry`, `rz`"],
+        &["unknown key `yaw`", "three angles turn about other axes", "`rx`, `ry`, `rz`"],
     );
     says(&of("rotaton_x = \"wx\""), &["did you mean `rotation_x`?"]);
     says(&of("x = \"qx\""), &["no column is named for `w`"]);

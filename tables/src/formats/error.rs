@@ -64,7 +64,9 @@ pub enum DataError {
         other: &'static str,
     },
     /// Nothing in it.
-    #[error("{file}: the file is empty: a header line with the names of the columns was expected")]
+    #[error(
+        "{file}: the file is empty: write a line with the names of the columns, and the measured rows below it"
+    )]
     Empty {
         /// Name of the file.
         file: String,
@@ -76,7 +78,7 @@ pub enum DataError {
         file: String,
     },
     /// A header and nothing else.
-    #[error("{file}: there are no rows below the header")]
+    #[error("{file}: there are no rows below the header: write the measured rows there")]
     NoRows {
         /// Name of the file.
         file: String,
@@ -132,7 +134,9 @@ pub enum DataError {
         help: String,
     },
     /// More or fewer cells than the header has.
-    #[error("{file}: line {line}, row {row}: {found} cells where the header has {expected}")]
+    #[error(
+        "{file}: line {line}, row {row}: {found} cells where the header has {expected}: write one cell for each column"
+    )]
     RaggedRow {
         /// Name of the file.
         file: String,

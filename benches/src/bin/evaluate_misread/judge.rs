@@ -18,6 +18,8 @@ pub enum Answer {
     First,
     /// It is one of several that are named.
     Among,
+    /// Of two mistakes one is named; with it mended, the file shows the other or cannot show it.
+    Part,
     /// Something else is named.
     Other,
     /// The file is refused with the row that is impossible, and what may be wrong.
@@ -75,6 +77,7 @@ pub fn of_spoiled(data: &Data, clean: &Data, right: &Names) -> Result<(Answer, N
     let answer = match said.iter().position(|name| right.contains(name)) {
         Some(0) => Answer::First,
         Some(_) => Answer::Among,
+        None if said.iter().any(|name| is_part(name, right)) => Answer::Part,
         None if !said.is_empty() => Answer::Other,
         None => {
             let as_read = fitted(&own)?;
@@ -90,6 +93,11 @@ pub fn of_spoiled(data: &Data, clean: &Data, right: &Names) -> Result<(Answer, N
         }
     };
     Ok((answer, said))
+}
+
+/// Whether what is named is one of two mistakes that were made.
+fn is_part(name: &str, right: &Names) -> bool {
+    right.iter().any(|both| both.split(" and ").any(|one| one == name))
 }
 
 /// How much larger the numbers of what was observed are by the mistake: what shrinks the data explains nothing.

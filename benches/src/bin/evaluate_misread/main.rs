@@ -67,10 +67,10 @@ fn numbers(seed: u64, case: usize, run: usize) -> Random {
 
 fn spoiled(asked: &Asked) -> Result<String, Failure> {
     let mut text =
-        "| mistake | instrument | rows | runs | named first | among those named | another named | refused | withheld | silent | cannot be seen |\n\
-         |---|---|---|---|---|---|---|---|---|---|---|\n"
+        "| mistake | instrument | rows | runs | named first | among those named | one of two named | another named | refused | withheld | silent | cannot be seen |\n\
+         |---|---|---|---|---|---|---|---|---|---|---|---|\n"
             .to_owned();
-    let mut sums = [0_usize; 7];
+    let mut sums = [0_usize; 8];
     for (case, trap) in TRAPS.iter().enumerate() {
         let is_asked =
             asked.traps.is_empty() || asked.traps.iter().any(|part| trap.name.contains(part.as_str()));
@@ -88,6 +88,7 @@ fn spoiled(asked: &Asked) -> Result<String, Failure> {
                 let kinds = [
                     Answer::First,
                     Answer::Among,
+                    Answer::Part,
                     Answer::Other,
                     Answer::Refused,
                     Answer::Withheld,
@@ -163,6 +164,7 @@ Files of seven instruments are simulated, and one mistake is made in each. `cali
 it looks for any effect. The simulators share no code with the program.
 
 - *named first*: the mistake is the first reading that is told. *among those named*: several explain the data alike, and it is one.
+- *one of two named*: two mistakes were made, and one is told. Where the data can show the other, it is told once the first is mended.
 - *another named*: what is told is no mistake that was made.
 - *refused*: a number of the file is impossible, and `calibrate` says in which row.
 - *withheld*: nothing is named, and the correction is withheld, because an error or the residual is too large to be one.

@@ -1,0 +1,166 @@
+//! Printed numbers: that the exact value is the printed one as far as this is rounded, or that it is not.
+
+use std::fmt::Write as _;
+
+use super::expanded::Expanded;
+use super::expression;
+use super::leaf;
+use super::passage;
+use super::{Certificate, Refusal};
+use claims::checker::{Exactly, Values, exact_leeway};
+use model_core::algebra::Poly;
+use model_core::chain::{ObservableId, ObservableKind};
+use model_core::escape::comments::coq as comment;
+use model_core::expr::Expr;
+use model_core::symbol::{SymbolId, SymbolKind};
+
+impl Certificate<'_> {
+    /// States that what an observable shows at numbers, or what the errors add to that, rounds to the printed numbers, and proves the
+    /// verdict on it: Coq encloses every sine, cosine and product between two numbers.
+    ///
+    /// # Errors
+    /// [`Refusal`].
+    pub fn values(&mut self, title: &str, claim: &Values, holds: bool) -> Result<(), Refusal> {
+        let exactly = self.decidable(claim)?;
+        let declared = self.declared;
+        let chain = declared.chain();
+        let observable = chain.observable(claim.observable);
+        let path = passage::bodies(declared, claim.observable);
+        let vector = declared.observable(claim.observable);
+        let mut used: Vec<SymbolId> = path.iter().flat_map(|(body, _)| self.body_symbols(*body)).collect();
+        used.extend(vector.iter().flat_map(|component| declared.symbols_of(component)));
+        used.sort_unstable();
+        used.dedup();
+        let module = self.names.give(title);
+        let what = if claim.is_error { "what the errors add to" } else { "the numbers of" };
+        let said = if holds { "holds" } else { "differs" };
+        let mut out = format!(
+            "(* {}: {what} {} at these values, as printed: {said} *)\nModule {module}.\n",
+            comment(title),
+            comment(&observable.name)
+        );
+        let mut words = Vec::new();
+        for &symbol in &used {
+            let value = self.value_of(exactly, symbol)?;
+            let name = self.symbol(symbol);
+            let _ = writeln!(out, "Definition {name} : R := {}.", number(&value)?);
+            words.push(name.to_owned());
+        }
+        for (which, has_errors) in [("instrument", true), ("designed", false)] {
+            if !has_errors && !claim.is_error {
+                continue;
+            }
+            let bodies: Vec<String> = path
+                .iter()
+                .map(|&(body, is_reversed)| {
+                    let symbols = self.body_symbols(body).into_iter();
+                    let arguments: String = symbols
+                        .map(|symbol| match declared.is_error(symbol) && !has_errors {
+                            true => " 0".to_owned(),
+                            false => format!(" {}", self.symbol(symbol)),
+                        })
+                        .collect();
+                    let whole = format!("{}{arguments}", self.bodies[usize::from(body.0)]);
+                    if is_reversed { format!("back ({whole})") } else { whole }
+                })
+                .collect();
+            let bodies = if bodies.is_empty() { "[]".to_owned() } else { bodies.join(" ++ ") };
+            let _ = writeln!(out, "Definition {which} : list motion :=\n  {bodies}.");
+        }
+        words.extend(path.iter().map(|(body, _)| self.bodies[usize::from(body.0)].clone()));
+        let leaf = |expression: &Expr<()>| leaf::leaf(declared, expression, &|symbol| self.term(symbol));
+        let written = vector.each_ref().map(|component| expression::write(component, &leaf));
+        vector_of(&mut out, "vector", &written);
+        let printed: Vec<String> =
+            exactly.claimed.iter().map(|[value, _]| number(value)).collect::<Result<_, _>>()?;
+        let within: Vec<String> = exactly
+            .claimed
+            .iter()
+            .map(|claimed| number(&exact_leeway(claimed).ok_or(Refusal::Claim)?))
+            .collect::<Result<_, _>>()?;
+        vector_of(&mut out, "printed", &printed);
+        out.push_str(
+            "(* Half of the last printed digit, and a billionth of that; a trillionth of the number. *)\n",
+        );
+        vector_of(&mut out, "within", &within);
+        let kind = match observable.kind {
+            ObservableKind::Direction => "Direction",
+            ObservableKind::Point => "Point",
+        };
+        let shown = format!("shown {kind} instrument vector");
+        let (shown, designed) = match claim.is_error {
+            true => (format!("less ({shown}) (shown {kind} designed vector)"), " designed"),
+            false => (shown, ""),
+        };
+        words.dedup();
+        let (negation, words) = (if holds { "" } else { "~ " }, words.join(" "));
+        let _ = writeln!(
+            out,
+            "Definition claim : Prop := rounded_to ({shown}) printed within.\nTheorem {said} : {negation}claim.\n\
+             Proof. cbv [claim instrument{designed} vector printed within {words}]; by_numbers. Qed.\nEnd {module}."
+        );
+        self.finish_section(out, &module, said);
+        Ok(())
+    }
+
+    /// The exact numbers of a claim that Coq can decide.
+    fn decidable<'v>(&self, claim: &'v Values) -> Result<&'v Exactly, Refusal> {
+        let chain = self.declared.chain();
+        let observable = chain.observable(claim.observable);
+        if !observable.is_vector() {
+            let reading = observable.shown.iter().find(|reading| reading.component().is_none());
+            return Err(match reading.or(observable.shown.first()) {
+                Some(reading) => Refusal::ValueOf { reading: reading.words() },
+                None => Refusal::Claim,
+            });
+        }
+        self.without_special_symbols(claim.observable)?;
+        claim
+            .exactly
+            .as_ref()
+            .ok_or_else(|| Refusal::NoExactValue { what: "one of the numbers of the claim".to_owned() })
+    }
+
+    /// Refuses ramps, and lines of sight that are bent or have an angle from up.
+    fn without_special_symbols(&self, id: ObservableId) -> Result<(), Refusal> {
+        let chain = self.declared.chain();
+        let observable = chain.observable(id);
+        let way = chain.way(id);
+        let amounts = way.iter().map(|passed| &passed.factor.amount).chain(&observable.components);
+        let symbols: Vec<SymbolId> = amounts.flat_map(Poly::symbols).collect();
+        if observable.bend.is_some() || symbols.iter().any(|symbol| chain.sight_angle(*symbol).is_some()) {
+            return Err(Refusal::LineOfSight { name: observable.name.clone() });
+        }
+        if symbols.iter().any(|symbol| chain.ramp(*symbol).is_some()) {
+            return Err(Refusal::RampValue);
+        }
+        Ok(())
+    }
+
+    /// What a symbol is: what the file gives, what is declared, or zero.
+    fn value_of(&self, exactly: &Exactly, symbol: SymbolId) -> Result<Poly, Refusal> {
+        if let Some((_, value)) = exactly.given.iter().find(|(own, _)| *own == symbol) {
+            return Ok(value.clone());
+        }
+        let own = self.declared.chain().symbol(symbol);
+        match own.kind {
+            SymbolKind::Constant => self
+                .declared
+                .constant(symbol)
+                .cloned()
+                .ok_or_else(|| Refusal::NoExactValue { what: format!("the constant `{}`", own.name) }),
+            _ => Ok(Poly::zero()),
+        }
+    }
+}
+
+/// A number in Coq's syntax.
+fn number(value: &Poly) -> Result<String, Refusal> {
+    Ok(Expanded::new(value)?.write(&|_| "PI".to_owned()))
+}
+
+/// `Definition vector : vec := V (0) (1) (0).`
+fn vector_of(out: &mut String, name: &str, components: &[String]) {
+    let components: String = components.iter().map(|component| format!("\n  ({component})")).collect();
+    let _ = writeln!(out, "Definition {name} : vec := V{components}.");
+}

@@ -41,9 +41,10 @@ impl Certificate<'_> {
         );
         let mut words = Vec::new();
         for &symbol in &used {
-            let value = self.value_of(exactly, symbol)?;
+            let (value, written) = self.value_of(exactly, symbol)?;
             let name = self.symbol(symbol);
-            let _ = writeln!(out, "Definition {name} : R := {}.", number(&value)?);
+            let written = written.map_or(String::new(), |text| format!(" (* {} *)", comment(text)));
+            let _ = writeln!(out, "Definition {name} : R := {}.{written}", number(&value)?);
             words.push(name.to_owned());
         }
         for (which, has_errors) in [("instrument", true), ("designed", false)] {
@@ -78,6 +79,7 @@ impl Certificate<'_> {
             .iter()
             .map(|claimed| number(&exact_leeway(claimed).ok_or(Refusal::Claim)?))
             .collect::<Result<_, _>>()?;
+        let _ = writeln!(out, "(* As printed: {} *)", comment(&exactly.written.join(", ")));
         vector_of(&mut out, "printed", &printed);
         out.push_str(
             "(* Half of the last printed digit, and a billionth of that; a trillionth of the number. *)\n",
@@ -137,19 +139,22 @@ impl Certificate<'_> {
         Ok(())
     }
 
-    /// What a symbol is: what the file gives, what is declared, or zero.
-    fn value_of(&self, exactly: &Exactly, symbol: SymbolId) -> Result<Poly, Refusal> {
-        if let Some((_, value)) = exactly.given.iter().find(|(own, _)| *own == symbol) {
-            return Ok(value.clone());
+    /// What a symbol is: what the file gives, with its text, what is declared, or zero.
+    fn value_of<'e>(
+        &self,
+        exactly: &'e Exactly,
+        symbol: SymbolId,
+    ) -> Result<(Poly, Option<&'e str>), Refusal> {
+        if let Some(given) = exactly.given.iter().find(|given| given.symbol == symbol) {
+            return Ok((given.value.clone(), Some(&given.written)));
         }
         let own = self.declared.chain().symbol(symbol);
-        match own.kind {
-            SymbolKind::Constant => self
-                .declared
-                .constant(symbol)
-                .cloned()
-                .ok_or_else(|| Refusal::NoExactValue { what: format!("the constant `{}`", own.name) }),
-            _ => Ok(Poly::zero()),
+        match (own.kind, self.declared.constant(symbol)) {
+            (SymbolKind::Constant, Some(value)) => Ok((value.clone(), None)),
+            (SymbolKind::Constant, None) => {
+                Err(Refusal::NoExactValue { what: format!("the constant `{}`", own.name) })
+            }
+            _ => Ok((Poly::zero(), None)),
         }
     }
 }

@@ -25,16 +25,29 @@ pub struct Values {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Exactly {
     /// The values that the file gives.
-    pub given: Vec<(SymbolId, Poly)>,
+    pub given: Vec<Given>,
     /// The printed numbers, each with how far off a rounded print may be.
     pub claimed: Vec<[Poly; 2]>,
+    /// The printed numbers as they are written.
+    pub written: Vec<String>,
+}
+
+/// A value that a file gives a symbol.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Given {
+    /// The symbol.
+    pub symbol: SymbolId,
+    /// Its value, SI.
+    pub value: Poly,
+    /// The same as it is written.
+    pub written: String,
 }
 
 impl Exactly {
     /// With one more value, where it is known.
-    pub(crate) fn giving(mut self, symbol: SymbolId, value: Poly) -> Option<Self> {
-        self.given.retain(|(own, _)| *own != symbol);
-        self.given.push((symbol, value));
+    pub(crate) fn giving(mut self, symbol: SymbolId, value: Option<Poly>, written: &str) -> Option<Self> {
+        self.given.retain(|given| given.symbol != symbol);
+        self.given.push(Given { symbol, value: value?, written: written.to_owned() });
         Some(self)
     }
 }

@@ -49,8 +49,8 @@ impl Reader<'_> {
             let quantity = chain.symbol(id).quantity;
             let value = self.number_of(text, quantity)?;
             values[id.index()] = value;
-            exact =
-                exact.and_then(|exact| exact.giving(id, exactly(chain, text.get_ref(), quantity, value)?));
+            let number = exactly(chain, text.get_ref(), quantity, value);
+            exact = exact.and_then(|exact| exact.giving(id, number, text.get_ref()));
         }
         for (name, size) in &table.errors {
             for error in self.errors_of(name.get_ref(), name.span())? {
@@ -61,8 +61,8 @@ impl Reader<'_> {
                     Value::String(text) => text.clone(),
                     other => other.to_string(),
                 };
-                exact =
-                    exact.and_then(|exact| exact.giving(error, exactly(chain, &written, quantity, value)?));
+                let number = exactly(chain, &written, quantity, value);
+                exact = exact.and_then(|exact| exact.giving(error, number, &written));
             }
         }
         let shown = self.chain.observable(observable);
@@ -83,6 +83,7 @@ impl Reader<'_> {
             claimed.push(numbers);
             exact = exact.and_then(|mut exact| {
                 exact.claimed.push(rounded?);
+                exact.written.push(text.to_owned());
                 Some(exact)
             });
         }

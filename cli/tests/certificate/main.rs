@@ -160,7 +160,7 @@ fn numbers_are_certified_and_what_is_no_theorem_has_a_reason() {
     );
     let value = |number: &str| {
         format!(
-            "[[claim]]\nname = \"at {number}\"\nobservable = \"tip\"\n\
+            "[[claim]]\nname = \"number {number}\"\nobservable = \"tip\"\n\
              value = {{ at = {{ q = \"90 deg\" }}, errors = {{ e = \"0.01 deg\" }}, equals = [\"{number} um\", \"0.0 um\", \"0 mm\"] }}\n"
         )
     };
@@ -181,8 +181,8 @@ fn numbers_are_certified_and_what_is_no_theorem_has_a_reason() {
         "Definition q : R := 1 / 2 * PI.",
         "Definition e : R := 1 / 18000 * PI.",
         "(- 349 / 2500000)",
-        "Print Assumptions at_139_6.holds.",
-        "Print Assumptions at_139_7.differs.",
+        "Print Assumptions number_139_6.holds.",
+        "Print Assumptions number_139_7.differs.",
     ] {
         assert!(text.contains(said), "{said}: {text}");
     }

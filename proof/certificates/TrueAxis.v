@@ -1161,6 +1161,7 @@ Ltac terms_of v :=
   lazymatch v with V ?a ?b ?c => let a := term_of a in let b := term_of b in let c := term_of c in constr:((a, b, c)) end.
 (* Decides a goal about what is shown at numbers. *)
 Ltac by_numbers :=
+  cbv [app back rev map opposite];
   lazymatch goal with
   | |- rounded_to (less (shown ?k ?c ?p) (shown _ ?d ?q)) ?n ?w =>
     let c := steps_of c in let d := steps_of d in let p := terms_of p in let q := terms_of q in

@@ -155,10 +155,4 @@ pub enum Refusal {
     /// A ramp at numbers.
     #[error("the value has a ramp on its way; certificates do not put numbers into ramps")]
     RampValue,
-    /// A print that is rounded just where the value lies.
-    #[error("the value lies within {margin} of where the print would be wrong, too near for Coq to decide")]
-    TooNear {
-        /// How near, as a part of what the print is rounded to.
-        margin: &'static str,
-    },
 }

@@ -56,9 +56,9 @@ impl Certificate<'_> {
                 .map(|&(body, is_reversed)| {
                     let symbols = self.body_symbols(body).into_iter();
                     let arguments: String = symbols
-                        .map(|symbol| match declared.is_error(symbol) && !has_errors {
-                            true => " 0".to_owned(),
-                            false => format!(" {}", self.symbol(symbol)),
+                        .map(|symbol| {
+                            let is_zero = declared.is_error(symbol) && !has_errors;
+                            format!(" {}", if is_zero { "0" } else { self.symbol(symbol) })
                         })
                         .collect();
                     let whole = format!("{}{arguments}", self.bodies[usize::from(body.0)]);
@@ -82,7 +82,7 @@ impl Certificate<'_> {
         let _ = writeln!(out, "(* As printed: {} *)", comment(&exactly.written.join(", ")));
         vector_of(&mut out, "printed", &printed);
         out.push_str(
-            "(* Half of the last printed digit, and a billionth of that; a trillionth of the number. *)\n",
+            "(* How far off the rounded print may be, and a billionth of that; a trillionth of the number. *)\n",
         );
         vector_of(&mut out, "within", &within);
         let kind = match observable.kind {
@@ -90,9 +90,10 @@ impl Certificate<'_> {
             ObservableKind::Point => "Point",
         };
         let shown = format!("shown {kind} instrument vector");
-        let (shown, designed) = match claim.is_error {
-            true => (format!("less ({shown}) (shown {kind} designed vector)"), " designed"),
-            false => (shown, ""),
+        let (shown, designed) = if claim.is_error {
+            (format!("less ({shown}) (shown {kind} designed vector)"), " designed")
+        } else {
+            (shown, "")
         };
         words.dedup();
         let (negation, words) = (if holds { "" } else { "~ " }, words.join(" "));
@@ -132,6 +133,10 @@ impl Certificate<'_> {
         let symbols: Vec<SymbolId> = amounts.flat_map(Poly::symbols).collect();
         if observable.bend.is_some() || symbols.iter().any(|symbol| chain.sight_angle(*symbol).is_some()) {
             return Err(Refusal::LineOfSight { name: observable.name.clone() });
+        }
+        // The vector stands once in the statement, for the instrument with errors and without.
+        if observable.components.iter().flat_map(Poly::symbols).any(|symbol| self.declared.is_error(symbol)) {
+            return Err(Refusal::Claim);
         }
         if symbols.iter().any(|symbol| chain.ramp(*symbol).is_some()) {
             return Err(Refusal::RampValue);

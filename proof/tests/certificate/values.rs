@@ -57,10 +57,8 @@ fn claim(declared: &Declared, of: &str, is_error: bool, claimed: [&str; 3], half
 /// The exact numbers, rounded to nine decimals.
 fn rounded(declared: &Declared, of: &str, is_error: bool) -> [String; 3] {
     let any = claim(declared, of, is_error, ["0", "0", "0"], "1");
-    let found = match is_error {
-        true => model_core::exact::Path::new(declared.chain(), any.observable).shown_error(&any.values),
-        false => model_core::exact::Path::new(declared.chain(), any.observable).shown(&any.values),
-    };
+    let path = model_core::exact::Path::new(declared.chain(), any.observable);
+    let found = if is_error { path.shown_error(&any.values) } else { path.shown(&any.values) };
     found
         .into_iter()
         .map(|number| format!("{number:.9}"))

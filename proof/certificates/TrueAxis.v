@@ -640,12 +640,12 @@ Notation whole := BinNums.Z.
 
 (* Numbers by their syntax, so that Coq calculates with them. *)
 Inductive term :=
-  | Number (n : whole) | Pi | Opposite (a : term) | Sum (a b : term) | Product (a b : term) | Over (a : term)
+  | Number (n : whole) | Ratio (p q : whole) | Pi | Opposite (a : term) | Sum (a b : term) | Product (a b : term) | Over (a : term)
   | Sine (a : term) | Cosine (a : term) | Power (a : term) (n : nat).
 
 Fixpoint value (t : term) : R :=
   match t with
-  | Number n => IZR n | Pi => PI | Opposite a => - value a | Sum a b => value a + value b
+  | Number n => IZR n | Ratio p q => IZR p / IZR q | Pi => PI | Opposite a => - value a | Sum a b => value a + value b
   | Product a b => value a * value b | Over a => / value a | Sine a => sin (value a) | Cosine a => cos (value a)
   | Power a n => value a ^ n
   end.
@@ -985,15 +985,24 @@ Fixpoint b_pow (a : ball) (n : nat) : ball := match n with O => b_whole bits 1 |
 Lemma inside_pow a v n : inside bits a v -> inside bits (b_pow a n) (v ^ n).
 Proof. intro A. induction n as [|n IH]; [now apply inside_whole|]. now apply inside_mul. Qed.
 
+Definition b_ratio (p q : whole) : ball := if (q =? 0)%Z then None else Some (p * scale bits / q, 1)%Z.
+Lemma inside_ratio p q : inside bits (b_ratio p q) (IZR p / IZR q).
+Proof.
+  unfold b_ratio. destruct (Z.eqb_spec q 0) as [|N]; cbn [inside]; [exact I|].
+  destruct (floor_of (p * scale bits) q N) as [L U]. rewrite mult_IZR in L, U. apply abs_between.
+  replace (IZR p / IZR q * IZR (scale bits)) with (IZR p * IZR (scale bits) / IZR q)
+    by (field; now apply not_0_IZR). lra.
+Qed.
+
 Fixpoint about (t : term) : ball :=
   match t with
-  | Number n => b_whole bits n | Pi => b_pi | Opposite a => b_opp (about a) | Sum a b => b_add (about a) (about b)
+  | Number n => b_whole bits n | Ratio p q => b_ratio p q | Pi => b_pi | Opposite a => b_opp (about a) | Sum a b => b_add (about a) (about b)
   | Product a b => b_mul bits (about a) (about b) | Over a => b_over bits (about a)
   | Sine a => snd (wave bits 100 (about a)) | Cosine a => fst (wave bits 100 (about a)) | Power a n => b_pow (about a) n
   end.
 Lemma inside_about t : inside bits (about t) (value t).
 Proof.
-  induction t; cbn [about value]; auto using inside_whole, inside_pi, inside_opp, inside_add, inside_mul, inside_over, inside_pow;
+  induction t; cbn [about value]; auto using inside_whole, inside_ratio, inside_pi, inside_opp, inside_add, inside_mul, inside_over, inside_pow;
     now apply inside_wave.
 Qed.
 
@@ -1136,6 +1145,8 @@ Qed.
 Ltac term_of e :=
   lazymatch e with
   | IZR ?n => constr:(Number n)
+  | IZR ?p / IZR ?q => constr:(Ratio p q)
+  | - IZR (Zpos ?p) / IZR ?q => constr:(Ratio (Zneg p) q)
   | PI => constr:(Pi)
   | - ?a => let a := term_of a in constr:(Opposite a)
   | ?a + ?b => let a := term_of a in let b := term_of b in constr:(Sum a b)

@@ -1,9 +1,10 @@
 (* TrueAxis.v: what a chain of bodies means, over the real numbers of Coq's standard library.
 
    The fixed library of every certificate that trueaxis writes. Parts 1 and 2 are definitions, to be read: a certificate
-   says what they say. Parts 3 to 6 are proofs, which Coq checks: nobody has to read them. *)
+   says what they say. Parts 3 to 7 are proofs, which Coq checks: nobody has to read them. *)
 
 From Coq Require Export Reals List Lra.
+From Coq Require Import ZArith Lia.
 Export ListNotations.
 Open Scope R_scope.
 
@@ -109,6 +110,12 @@ Definition zenith_distance_error (s : signed) (f : R -> vec) (v : R) : Prop :=
   derivable_pt_lim (fun t => PI / 2 - elevation s (f t)) 0 v.
 Definition range_error (f : R -> vec) (v : R) : Prop :=
   derivable_pt_lim (fun t => sqrt (square (f t))) 0 v.
+
+(* Values at numbers: v is the printed vector as far as this is rounded, component by component. *)
+(* What one vector has more than another. *)
+Definition less (p q : vec) : vec := V (x p - x q) (y p - y q) (z p - z q).
+Definition rounded_to (v printed within : vec) : Prop :=
+  Rabs (x v - x printed) <= x within /\ Rabs (y v - y printed) <= y within /\ Rabs (z v - z printed) <= z within.
 
 (* ---------------------------------------------------------------------------------------------------------------- *)
 (* 3. Rules of derivatives *)
@@ -624,3 +631,559 @@ Lemma shown_of k c p a b d v : follows k c p [a] [b] [d] -> a = x v -> b = y v -
 Proof.
   intros ((A & _) & (B & _) & (D & _)) E F G. destruct v, (shown k (c 0) p). cbn in *. congruence.
 Qed.
+
+(* ---------------------------------------------------------------------------------------------------------------- *)
+(* 7. Values at numbers *)
+
+(* Whole numbers; Z is an axis here. *)
+Notation whole := BinNums.Z.
+
+(* Numbers by their syntax, so that Coq calculates with them. *)
+Inductive term :=
+  | Number (n : whole) | Ratio (p q : whole) | Pi | Opposite (a : term) | Sum (a b : term) | Product (a b : term) | Over (a : term)
+  | Sine (a : term) | Cosine (a : term) | Power (a : term) (n : nat).
+
+Fixpoint value (t : term) : R :=
+  match t with
+  | Number n => IZR n | Ratio p q => IZR p / IZR q | Pi => PI | Opposite a => - value a | Sum a b => value a + value b
+  | Product a b => value a * value b | Over a => / value a | Sine a => sin (value a) | Cosine a => cos (value a)
+  | Power a n => value a ^ n
+  end.
+
+(* Motions by such numbers. *)
+Inductive step := Turn (about : axis) (angle : term) | Shift (along : axis) (length : term).
+
+Section Balls.
+Variable bits : whole.
+Hypothesis bits_positive : (0 <= bits)%Z.
+Definition scale : whole := Z.shiftl 1 bits.
+Definition shift (n : whole) : whole := Z.shiftr n bits.
+Definition ball : Set := option (whole * whole).
+Definition inside (b : ball) (v : R) : Prop :=
+  match b with None => True | Some (c, r) => Rabs (v * IZR scale - IZR c) <= IZR r end.
+
+Lemma scale_is : scale = (2 ^ bits)%Z.
+Proof. unfold scale. rewrite Z.shiftl_mul_pow2 by assumption. lia. Qed.
+Lemma scale_positive : 0 < IZR scale.
+Proof. rewrite scale_is. apply IZR_lt. now apply Z.pow_pos_nonneg. Qed.
+
+(* A whole floor_of, rounded down. *)
+Lemma floor_of a b : (b <> 0)%Z -> IZR (a / b) <= IZR a / IZR b <= IZR (a / b) + 1.
+Proof.
+  intro N. assert (E := Z.div_mod a b N). set (q := (a / b)%Z) in *. set (m := (a mod b)%Z) in *.
+  assert (NR : IZR b <> 0) by now apply not_0_IZR.
+  replace (IZR a / IZR b) with (IZR q + IZR m / IZR b)
+    by (rewrite E at 1; rewrite plus_IZR, mult_IZR; now field).
+  destruct (Z.lt_trichotomy b 0) as [L|[L|L]]; [|contradiction|].
+  - assert (M := Z.mod_neg_bound a b L). fold m in M.
+    assert (0 <= IZR m / IZR b <= 1); [|lra].
+    replace (IZR m / IZR b) with (IZR (- m) / IZR (- b)) by (rewrite !opp_IZR; field; auto).
+    assert (0 < IZR (- b)) by (apply IZR_lt; lia). split.
+    + apply Rmult_le_pos; [apply IZR_le; lia|]. apply Rlt_le. now apply Rinv_0_lt_compat.
+    + apply Rmult_le_reg_r with (IZR (- b)); [assumption|]. unfold Rdiv.
+      rewrite Rmult_assoc, Rinv_l by lra. rewrite Rmult_1_r, Rmult_1_l. apply IZR_le; lia.
+  - assert (M := Z.mod_pos_bound a b L). fold m in M.
+    assert (0 < IZR b) by now apply IZR_lt.
+    assert (0 <= IZR m / IZR b <= 1); [|lra]. split.
+    + apply Rmult_le_pos; [apply IZR_le; lia|]. apply Rlt_le. now apply Rinv_0_lt_compat.
+    + apply Rmult_le_reg_r with (IZR b); [assumption|]. unfold Rdiv.
+      rewrite Rmult_assoc, Rinv_l by lra. rewrite Rmult_1_r, Rmult_1_l. apply IZR_le; lia.
+Qed.
+Lemma shifted a : IZR (shift a) <= IZR a / IZR scale <= IZR (shift a) + 1.
+Proof.
+  unfold shift. rewrite Z.shiftr_div_pow2 by assumption. rewrite scale_is. apply floor_of.
+  assert (0 < 2 ^ bits)%Z by now apply Z.pow_pos_nonneg. lia.
+Qed.
+
+Definition b_opp (a : ball) : ball := match a with None => None | Some (c, r) => Some (Z.opp c, r) end.
+Definition b_add (a b : ball) : ball :=
+  match a, b with Some (c, r), Some (d, s) => Some (Z.add c d, Z.add r s) | _, _ => None end.
+Definition b_mul (a b : ball) : ball :=
+  match a, b with
+  | Some (c, r), Some (d, s) =>
+    Some (shift (c * d), shift (Z.abs c * s + Z.abs d * r + r * s) + 2)%Z
+  | _, _ => None
+  end.
+Definition b_half (a : ball) : ball := match a with None => None | Some (c, r) => Some (c / 2, r / 2 + 1)%Z end.
+Definition b_over (a : ball) : ball :=
+  match a with
+  | Some (c, r) =>
+    if (r <? Z.abs c)%Z then Some (scale * scale / c, scale * scale * r / ((Z.abs c - r) * Z.abs c) + 2)%Z else None
+  | None => None
+  end.
+(* The same with a larger radius, by so many units. *)
+Definition wider (a : ball) (more : whole) : ball := match a with None => None | Some (c, r) => Some (c, r + more)%Z end.
+Definition b_whole (n : whole) : ball := Some (n * scale, 0)%Z.
+
+
+Lemma abs_between a b : Rabs a <= b <-> - b <= a <= b.
+Proof.
+  split.
+  - intro H. assert (A := Rle_abs a). assert (B := Rle_abs (- a)). rewrite Rabs_Ropp in B. lra.
+  - intros [A B]. now apply Rabs_le.
+Qed.
+
+Lemma inside_opp a v : inside a v -> inside (b_opp a) (- v).
+Proof. destruct a as [[c r]|]; cbn; [|trivial]. rewrite opp_IZR, !abs_between. lra. Qed.
+Lemma inside_add a b v w : inside a v -> inside b w -> inside (b_add a b) (v + w).
+Proof. destruct a as [[c r]|], b as [[d s]|]; cbn; try trivial. rewrite !plus_IZR, !abs_between. lra. Qed.
+Lemma inside_whole n : inside (b_whole n) (IZR n).
+Proof. cbn. rewrite mult_IZR. apply abs_between. lra. Qed.
+Lemma inside_wider a v w n : inside a v -> Rabs (w - v) * IZR scale <= IZR n -> inside (wider a n) w.
+Proof.
+  destruct a as [[c r]|]; cbn; [|trivial]. intros A B. rewrite plus_IZR.
+  replace (w * IZR scale - IZR c) with ((w - v) * IZR scale + (v * IZR scale - IZR c)) by ring.
+  eapply Rle_trans; [apply Rabs_triang|]. rewrite Rabs_mult, (Rabs_right (IZR scale)); [lra|].
+  assert (P := scale_positive). lra.
+Qed.
+Lemma inside_mul a b v w : inside a v -> inside b w -> inside (b_mul a b) (v * w).
+Proof.
+  destruct a as [[c r]|], b as [[d s]|]; cbn; try trivial. intros A B. assert (P := scale_positive).
+  set (k := IZR scale) in *.
+  destruct (shifted (c * d)) as [L1 L2]. destruct (shifted (Z.abs c * s + Z.abs d * r + r * s)) as [M1 M2].
+  fold k in L1, L2, M1, M2. rewrite !plus_IZR. rewrite mult_IZR in L1, L2.
+  rewrite !plus_IZR, !mult_IZR, !abs_IZR in M1, M2.
+  set (e := v * k - IZR c) in *. set (f := w * k - IZR d) in *.
+  assert (E : v * w * k = (IZR c * IZR d + (IZR c * f + IZR d * e + e * f)) / k)
+    by (unfold e, f; field; lra).
+  assert (F : Rabs (IZR c * f + IZR d * e + e * f) <= Rabs (IZR c) * IZR s + Rabs (IZR d) * IZR r + IZR r * IZR s).
+  { eapply Rle_trans; [apply Rabs_triang|]. apply Rplus_le_compat.
+    - eapply Rle_trans; [apply Rabs_triang|]. rewrite !Rabs_mult.
+      apply Rplus_le_compat; apply Rmult_le_compat_l; auto using Rabs_pos.
+    - rewrite Rabs_mult. apply Rmult_le_compat; auto using Rabs_pos. }
+  set (g := IZR c * f + IZR d * e + e * f) in *.
+  set (h := Rabs (IZR c) * IZR s + Rabs (IZR d) * IZR r + IZR r * IZR s) in *.
+  rewrite E. unfold Rdiv in *. rewrite Rmult_plus_distr_r.
+  assert (G : Rabs (g * / k) <= h * / k).
+  { rewrite Rabs_mult, (Rabs_right (/ k)) by (apply Rle_ge, Rlt_le, Rinv_0_lt_compat; lra).
+    apply Rmult_le_compat_r; [apply Rlt_le, Rinv_0_lt_compat; lra|exact F]. }
+  rewrite abs_between in G |- *. lra.
+Qed.
+Lemma inside_half a v : inside a v -> inside (b_half a) (v / 2).
+Proof.
+  destruct a as [[c r]|]; cbn; [|trivial]. rewrite plus_IZR, !abs_between.
+  assert (C := Z.div_mod c 2). assert (Q := Z.div_mod r 2).
+  assert (CB := Z.mod_pos_bound c 2). assert (RB := Z.mod_pos_bound r 2).
+  assert (C2 : IZR c = 2 * IZR (c / 2) + IZR (c mod 2)) by (rewrite <- mult_IZR, <- plus_IZR; f_equal; lia).
+  assert (R2 : IZR r = 2 * IZR (r / 2) + IZR (r mod 2)) by (rewrite <- mult_IZR, <- plus_IZR; f_equal; lia).
+  assert (0 <= IZR (c mod 2) <= 1) by (split; apply IZR_le; lia).
+  assert (0 <= IZR (r mod 2) <= 1) by (split; apply IZR_le; lia).
+  lra.
+Qed.
+Lemma inside_over a v : inside a v -> inside (b_over a) (/ v).
+Proof.
+  destruct a as [[c r]|]; cbn; [|trivial]. intro A. destruct (Z.ltb_spec r (Z.abs c)) as [L|]; cbn; [|trivial].
+  assert (P := scale_positive). set (k := IZR scale) in *.
+  assert (R0 : 0 <= IZR r) by (eapply Rle_trans; [apply Rabs_pos|exact A]).
+  assert (LR : IZR r < Rabs (IZR c)) by (rewrite <- abs_IZR; now apply IZR_lt).
+  assert (C0 : (c <> 0)%Z) by (intros ->; rewrite Rabs_R0 in LR; lra).
+  assert (CR : IZR c <> 0) by now apply not_0_IZR.
+  assert (R0Z : (0 <= r)%Z) by now apply le_IZR.
+  assert (D0 : ((Z.abs c - r) * Z.abs c <> 0)%Z) by nia.
+  destruct (floor_of (scale * scale) c C0) as [L1 L2].
+  destruct (floor_of (scale * scale * r) _ D0) as [M1 M2].
+  rewrite plus_IZR. rewrite !mult_IZR in *. rewrite minus_IZR, abs_IZR in M1, M2. fold k in L1, L2, M1, M2.
+  set (e := v * k - IZR c) in *.
+  assert (X : Rabs (v * k) >= Rabs (IZR c) - IZR r).
+  { replace (v * k) with (IZR c + e) by (unfold e; ring).
+    assert (T := Rabs_triang_inv (IZR c) (- e)). rewrite Rabs_Ropp in T.
+    replace (IZR c - - e) with (IZR c + e) in T by ring. lra. }
+  assert (X0 : v * k <> 0) by (intro Z0; rewrite Z0, Rabs_R0 in X; lra).
+  assert (V0 : v <> 0) by (intros ->; lra).
+  assert (E : / v * k = k * k / IZR c + - (k * k * e / (v * k * IZR c))) by (unfold e; field; repeat split; lra).
+  assert (G : Rabs (- (k * k * e / (v * k * IZR c))) <= k * k * IZR r / ((Rabs (IZR c) - IZR r) * Rabs (IZR c))).
+  { rewrite Rabs_Ropp. unfold Rdiv. rewrite Rabs_mult, Rabs_mult, Rabs_inv, (Rabs_mult (v * k)).
+    rewrite (Rabs_right (k * k)) by nra.
+    apply Rmult_le_compat; [|apply Rlt_le, Rinv_0_lt_compat| |].
+    - apply Rmult_le_pos; [nra|apply Rabs_pos].
+    - apply Rmult_lt_0_compat; now apply Rabs_pos_lt.
+    - apply Rmult_le_compat_l; [nra|exact A].
+    - apply Rinv_le_contravar.
+      + apply Rmult_lt_0_compat; lra.
+      + apply Rmult_le_compat_r; lra. }
+  rewrite E. rewrite abs_between in G |- *. lra.
+Qed.
+
+(* An upper bound of the size of what is inside. *)
+Definition most (a : ball) : option whole := match a with None => None | Some (c, r) => Some (Z.abs c + r)%Z end.
+Lemma inside_most a v m : inside a v -> most a = Some m -> Rabs v * IZR scale <= IZR m.
+Proof.
+  destruct a as [[c r]|]; cbn; [|discriminate]. intros A [= <-]. rewrite plus_IZR, abs_IZR. assert (P := scale_positive).
+  rewrite <- (Rabs_right (IZR scale)) by lra. rewrite <- Rabs_mult.
+  replace (v * IZR scale) with (IZR c + (v * IZR scale - IZR c)) at 1 by ring.
+  eapply Rle_trans; [apply Rabs_triang|]. lra.
+Qed.
+
+(* Sine and cosine of a small angle, from two terms of their series. *)
+Lemma sine_series v : Rabs v <= 1 -> Rabs (sin v - (v - v ^ 3 / 6)) <= Rabs v ^ 5 / 120.
+Proof.
+  assert (Plus : forall u, 0 <= u <= 1 -> Rabs (sin u - (u - u ^ 3 / 6)) <= u ^ 5 / 120).
+  { intros u [A B]. assert (Q := PI2_1). destruct (sin_bound u 0 A ltac:(lra)) as [L U].
+    unfold sin_approx, sin_term in L, U. cbn -[pow] in L, U.
+    apply abs_between. split.
+    - replace (u - u ^ 3 / 6) with ((-1) ^ 0 * (u ^ 1 / 1) + (-1) ^ 1 * (u ^ 3 / 6)) by (cbn; field).
+      assert (0 <= u ^ 5) by now apply pow_le. 
+      match type of L with ?l <= _ => replace l with ((-1) ^ 0 * (u ^ 1 / 1) + (-1) ^ 1 * (u ^ 3 / 6)) in L by (cbn; field) end.
+      lra.
+    - match type of U with _ <= ?l => replace l with (u - u ^ 3 / 6 + u ^ 5 / 120) in U by (cbn; field) end. lra. }
+  intro H. destruct (Rle_dec 0 v) as [P|N].
+  - rewrite (Rabs_right v) in * by lra. now apply Plus.
+  - rewrite (Rabs_left v) in * by lra. assert (E := Plus (- v) ltac:(lra)). rewrite sin_neg in E.
+    replace (- sin v - (- v - (- v) ^ 3 / 6)) with (- (sin v - (v - v ^ 3 / 6))) in E by (cbn; field).
+    now rewrite Rabs_Ropp in E.
+Qed.
+Lemma cosine_series v : Rabs v <= 1 -> Rabs (cos v - (1 - v ^ 2 / 2)) <= Rabs v ^ 4 / 24.
+Proof.
+  intro H. assert (Q := PI2_1). apply abs_between in H. destruct (cos_bound v 0 ltac:(lra) ltac:(lra)) as [L U].
+  unfold cos_approx, cos_term in L, U. cbn -[pow] in L, U.
+  replace (Rabs v ^ 4) with (v ^ 4) by (rewrite RPow_abs, Rabs_right; [reflexivity|apply Rle_ge; replace (v ^ 4) with ((v ^ 2) ^ 2) by ring; apply pow2_ge_0]).
+  assert (0 <= v ^ 4) by (replace (v ^ 4) with ((v ^ 2) ^ 2) by ring; apply pow2_ge_0).
+  match type of L with ?l <= _ => replace l with (1 - v ^ 2 / 2) in L by (cbn; field) end.
+  match type of U with _ <= ?l => replace l with (1 - v ^ 2 / 2 + v ^ 4 / 24) in U by (cbn; field) end.
+  apply abs_between. lra.
+Qed.
+
+(* Of units per scale: a product, rounded up. *)
+Definition up (a b : whole) : whole := (shift (a * b) + 1)%Z.
+Lemma upwards a b v w : 0 <= v -> 0 <= w -> v * IZR scale <= IZR a -> w * IZR scale <= IZR b -> v * w * IZR scale <= IZR (up a b).
+Proof.
+  intros V W A B. assert (P := scale_positive). unfold up. rewrite plus_IZR. destruct (shifted (a * b)) as [_ U].
+  rewrite mult_IZR in U. eapply Rle_trans; [|exact U]. apply Rmult_le_reg_r with (IZR scale); [assumption|].
+  replace (IZR a * IZR b / IZR scale * IZR scale) with (IZR a * IZR b) by (field; lra).
+  replace (v * w * IZR scale * IZR scale) with ((v * IZR scale) * (w * IZR scale)) by ring.
+  apply Rmult_le_compat; try assumption; apply Rmult_le_pos; lra.
+Qed.
+
+Definition little (a : ball) : ball * ball :=
+  match most a with
+  | None => (None, None)
+  | Some m =>
+    if (m <=? scale)%Z then
+      let square := b_mul a a in
+      let m2 := up m m in
+      let m4 := up m2 m2 in
+      (wider (b_add (b_whole 1) (b_opp (b_half square))) (m4 / 24 + 1)%Z,
+       wider (b_add a (b_opp (b_mul (b_mul a square) (b_over (b_whole 6))))) (up m4 m / 120 + 1)%Z)
+    else (None, None)
+  end.
+Lemma inside_little a v : inside a v -> inside (fst (little a)) (cos v) /\ inside (snd (little a)) (sin v).
+Proof.
+  intro A. unfold little. destruct (most a) as [m|] eqn:M; [|split; exact I].
+  destruct (Z.leb_spec m scale) as [L|]; [|split; exact I]. cbn [fst snd].
+  assert (B := inside_most _ _ _ A M). assert (P := scale_positive). assert (N := Rabs_pos v).
+  assert (S1 : Rabs v <= 1).
+  { apply Rmult_le_reg_r with (IZR scale); [assumption|]. rewrite Rmult_1_l. eapply Rle_trans; [exact B|]. now apply IZR_le. }
+  assert (B2 := upwards _ _ _ _ N N B B). assert (N2 : 0 <= Rabs v * Rabs v) by nra.
+  assert (B4 := upwards _ _ _ _ N2 N2 B2 B2). assert (N4 : 0 <= Rabs v * Rabs v * (Rabs v * Rabs v)) by nra.
+  assert (B5 := upwards _ _ _ _ N4 N B4 B).
+  split.
+  - apply inside_wider with (v := 1 - v ^ 2 / 2).
+    + apply inside_add; [apply inside_whole|]. apply inside_opp. apply inside_half.
+      replace (v ^ 2) with (v * v) by ring. now apply inside_mul.
+    + destruct (floor_of (up (up m m) (up m m)) 24 ltac:(lia)) as [_ U]. rewrite plus_IZR. eapply Rle_trans; [|exact U].
+      apply Rle_trans with (Rabs v ^ 4 / 24 * IZR scale).
+      * apply Rmult_le_compat_r; [lra|]. now apply cosine_series.
+      * replace (Rabs v ^ 4) with (Rabs v * Rabs v * (Rabs v * Rabs v)) by ring. lra.
+  - apply inside_wider with (v := v + - (v * (v * v) * / 6)).
+    + apply inside_add; [assumption|]. apply inside_opp. apply inside_mul; [|apply inside_over, inside_whole].
+      apply inside_mul; [assumption|]. now apply inside_mul.
+    + destruct (floor_of (up (up (up m m) (up m m)) m) 120 ltac:(lia)) as [_ U]. rewrite plus_IZR. eapply Rle_trans; [|exact U].
+      apply Rle_trans with (Rabs v ^ 5 / 120 * IZR scale).
+      * apply Rmult_le_compat_r; [lra|].
+        replace (v + - (v * (v * v) * / 6)) with (v - v ^ 3 / 6) by field. now apply sine_series.
+      * replace (Rabs v ^ 5) with (Rabs v * Rabs v * (Rabs v * Rabs v) * Rabs v) by ring. lra.
+Qed.
+
+(* Of any angle, from half of it. *)
+Definition small : whole := Z.shiftl 1 (bits * 5 / 6).
+Fixpoint wave (halvings : nat) (a : ball) : ball * ball :=
+  match halvings with
+  | O => little a
+  | S n =>
+    match most a with
+    | None => (None, None)
+    | Some m =>
+      if (m <=? small)%Z then little a
+      else
+        let (c, s) := wave n (b_half a) in
+        (b_add (b_whole 1) (b_opp (b_mul (b_whole 2) (b_mul s s))), b_mul (b_whole 2) (b_mul s c))
+    end
+  end.
+Lemma inside_wave n : forall a v, inside a v -> inside (fst (wave n a)) (cos v) /\ inside (snd (wave n a)) (sin v).
+Proof.
+  induction n as [|n IH]; intros a v A; [now apply inside_little|]. cbn [wave].
+  destruct (most a) as [m|]; [|split; exact I]. destruct (m <=? small)%Z; [now apply inside_little|].
+  destruct (IH (b_half a) (v / 2) (inside_half _ _ A)) as [C S].
+  destruct (wave n (b_half a)) as [c s]. cbn [fst snd] in *.
+  replace v with (2 * (v / 2)) by field. rewrite cos_2a_sin, sin_2a. split.
+  - replace (1 - 2 * sin (v / 2) * sin (v / 2)) with (1 + - (2 * (sin (v / 2) * sin (v / 2)))) by ring.
+    apply inside_add; [apply inside_whole|]. apply inside_opp. apply inside_mul; [apply inside_whole|]. now apply inside_mul.
+  - rewrite Rmult_assoc. apply inside_mul; [apply inside_whole|]. now apply inside_mul.
+Qed.
+End Balls.
+
+(* Circumference: forty decimals, between which its sine changes sign. *)
+Definition pi_unit : whole := (10 ^ 40)%Z.
+Definition pi_digits : whole := 31415926535897932384626433832795028841971%Z.
+Definition is_above (b : ball) : bool := match b with Some (c, r) => (r <? c)%Z | None => false end.
+Lemma above_zero bits b v : (0 <= bits)%Z -> inside bits b v -> is_above b = true -> 0 < v.
+Proof.
+  intros B. destruct b as [[c r]|]; cbn; [|discriminate]. intros A L. apply Z.ltb_lt in L. apply IZR_lt in L.
+  apply abs_between in A. assert (P := scale_positive bits B).
+  destruct (Rle_dec v 0) as [N|N]; [|lra]. assert (v * IZR (scale bits) <= 0) by nra. lra.
+Qed.
+Definition fraction (bits p q : whole) : ball := b_mul bits (b_whole bits p) (b_over bits (b_whole bits q)).
+Lemma inside_fraction bits p q : (0 <= bits)%Z -> inside bits (fraction bits p q) (IZR p * / IZR q).
+Proof. intro B. apply inside_mul; [assumption|apply inside_whole; assumption|apply inside_over; [assumption|apply inside_whole; assumption]]. Qed.
+Definition fine : whole := 320.
+Lemma pi_between : IZR pi_digits <= PI * IZR pi_unit <= IZR pi_digits + 1.
+Proof.
+  assert (F : (0 <= fine)%Z) by (unfold fine; lia). assert (Q := PI2_1). assert (Q4 := PI_4).
+  assert (U : 0 < IZR pi_unit) by (apply IZR_lt; reflexivity).
+  assert (Sine : forall p, inside fine (snd (wave fine 100 (fraction fine p pi_unit))) (sin (IZR p * / IZR pi_unit))).
+  { intro p. apply inside_wave; [assumption|]. now apply inside_fraction. }
+  split.
+  - destruct (Rle_dec (IZR pi_digits) (PI * IZR pi_unit)) as [H|H]; [exact H|exfalso].
+    assert (A := above_zero fine _ _ F (Sine pi_digits) ltac:(vm_compute; reflexivity)).
+    apply (Rlt_not_le _ _ A). apply sin_le_0.
+    + apply Rmult_le_reg_r with (IZR pi_unit); [assumption|]. rewrite Rmult_assoc, Rinv_l, Rmult_1_r; lra.
+    + apply Rle_trans with 4.
+      * apply Rmult_le_reg_r with (IZR pi_unit); [assumption|]. rewrite Rmult_assoc, Rinv_l, Rmult_1_r, <- mult_IZR by lra.
+        apply IZR_le. vm_compute. discriminate.
+      * assert (3 <= PI); [|lra].
+        destruct (Rle_dec 3 PI) as [G|G]; [exact G|exfalso].
+        assert (B := above_zero fine _ _ F (Sine (3 * pi_unit)%Z) ltac:(vm_compute; reflexivity)).
+        rewrite mult_IZR, Rmult_assoc, Rinv_r, Rmult_1_r in B by lra.
+        apply (Rlt_not_le _ _ B). apply sin_le_0; lra.
+  - destruct (Rle_dec (PI * IZR pi_unit) (IZR pi_digits + 1)) as [H|H]; [exact H|exfalso].
+    assert (S1 := Sine (pi_digits + 1)%Z). assert (A := above_zero fine _ _ F (inside_opp _ _ _ S1) ltac:(vm_compute; reflexivity)).
+    apply (Rlt_not_le _ _ A). rewrite plus_IZR. assert (0 <= sin ((IZR pi_digits + 1) * / IZR pi_unit)); [|lra].
+    apply sin_ge_0.
+    + apply Rmult_le_pos; [apply Rle_trans with (IZR pi_digits); [apply IZR_le; discriminate|lra]|].
+      apply Rlt_le. apply Rinv_0_lt_compat. exact U.
+    + apply Rmult_le_reg_r with (IZR pi_unit); [assumption|]. rewrite Rmult_assoc, Rinv_l, Rmult_1_r; lra.
+Qed.
+(* Numbers, by their syntax. *)
+Section Numbers.
+Variable bits : whole.
+Hypothesis bits_positive : (0 <= bits)%Z.
+Definition b_pi : ball := Some (pi_digits * scale bits / pi_unit, scale bits / pi_unit + 2)%Z.
+Lemma inside_pi : inside bits b_pi PI.
+Proof.
+  unfold b_pi, inside. assert (P := scale_positive bits bits_positive). assert (B := pi_between).
+  assert (U : 0 < IZR pi_unit) by (apply IZR_lt; reflexivity).
+  destruct (floor_of (pi_digits * scale bits) pi_unit ltac:(discriminate)) as [A1 A2].
+  destruct (floor_of (scale bits) pi_unit ltac:(discriminate)) as [B1 B2].
+  rewrite mult_IZR in A1, A2. rewrite plus_IZR. set (k := IZR (scale bits)) in *.
+  set (d := IZR pi_digits) in *. set (u := IZR pi_unit) in *.
+  assert (E : PI * k = d * k / u + (PI * u - d) * (k / u)) by (field; lra).
+  assert (K : 0 <= k / u) by (apply Rlt_le, Rdiv_lt_0_compat; lra).
+  apply abs_between. rewrite E. assert (0 <= (PI * u - d) * (k / u) <= k / u) by nra. lra.
+Qed.
+
+Fixpoint b_pow (a : ball) (n : nat) : ball := match n with O => b_whole bits 1 | S n => b_mul bits a (b_pow a n) end.
+Lemma inside_pow a v n : inside bits a v -> inside bits (b_pow a n) (v ^ n).
+Proof. intro A. induction n as [|n IH]; [now apply inside_whole|]. now apply inside_mul. Qed.
+
+Definition b_ratio (p q : whole) : ball := if (q =? 0)%Z then None else Some (p * scale bits / q, 1)%Z.
+Lemma inside_ratio p q : inside bits (b_ratio p q) (IZR p / IZR q).
+Proof.
+  unfold b_ratio. destruct (Z.eqb_spec q 0) as [|N]; cbn [inside]; [exact I|].
+  destruct (floor_of (p * scale bits) q N) as [L U]. rewrite mult_IZR in L, U. apply abs_between.
+  replace (IZR p / IZR q * IZR (scale bits)) with (IZR p * IZR (scale bits) / IZR q)
+    by (field; now apply not_0_IZR). lra.
+Qed.
+
+Fixpoint about (t : term) : ball :=
+  match t with
+  | Number n => b_whole bits n | Ratio p q => b_ratio p q | Pi => b_pi | Opposite a => b_opp (about a) | Sum a b => b_add (about a) (about b)
+  | Product a b => b_mul bits (about a) (about b) | Over a => b_over bits (about a)
+  | Sine a => snd (wave bits 100 (about a)) | Cosine a => fst (wave bits 100 (about a)) | Power a n => b_pow (about a) n
+  end.
+Lemma inside_about t : inside bits (about t) (value t).
+Proof.
+  induction t; cbn [about value]; auto using inside_whole, inside_ratio, inside_pi, inside_opp, inside_add, inside_mul, inside_over, inside_pow;
+    now apply inside_wave.
+Qed.
+
+Definition of_step (s : step) : motion := match s with Turn a t => Rot a (value t) | Shift a t => Tr a (value t) end.
+Definition of_terms (p : term * term * term) : vec := let '(a, b, c) := p in V (value a) (value b) (value c).
+Definition balls : Set := ball * ball * ball.
+Definition all_inside (b : balls) (v : vec) : Prop :=
+  let '(p, q, r) := b in inside bits p (x v) /\ inside bits q (y v) /\ inside bits r (z v).
+Definition all_about (p : term * term * term) : balls := let '(a, b, c) := p in (about a, about b, about c).
+Definition b_sub (a b : ball) : ball := b_add a (b_opp b).
+Definition moved (k : kind) (s : step) (b : balls) : balls :=
+  let '(p, q, r) := b in
+  match s with
+  | Turn a t =>
+    let (c, s) := wave bits 100 (about t) in
+    let times := b_mul bits in
+    match a with
+    | X => (p, b_sub (times c q) (times s r), b_add (times s q) (times c r))
+    | Y => (b_add (times c p) (times s r), q, b_sub (times c r) (times s p))
+    | Z => (b_sub (times c p) (times s q), b_add (times s p) (times c q), r)
+    end
+  | Shift a t =>
+    match k, a with
+    | Direction, _ => b
+    | Point, X => (b_add p (about t), q, r)
+    | Point, Y => (p, b_add q (about t), r)
+    | Point, Z => (p, q, b_add r (about t))
+    end
+  end.
+Lemma inside_sub a b v w : inside bits a v -> inside bits b w -> inside bits (b_sub a b) (v - w).
+Proof. intros A B. apply inside_add; [assumption|]. now apply inside_opp. Qed.
+Lemma inside_moved k s b v : all_inside b v -> all_inside (moved k s b) (move k (of_step s) v).
+Proof.
+  destruct b as [[p q] r]. intros (P & Q & R). destruct s as [a t|a t].
+  - cbn [moved of_step move]. destruct (inside_wave bits bits_positive 100 _ _ (inside_about t)) as [C S].
+    destruct (wave bits 100 (about t)) as [c s]. cbn [fst snd] in C, S.
+    destruct a; repeat split; cbn [x y z]; auto using inside_sub, inside_add, inside_mul.
+  - assert (A := inside_about t). destruct k, a; cbn [moved of_step move]; repeat split; cbn [x y z]; auto using inside_add.
+Qed.
+Definition shows (k : kind) (c : list step) (p : term * term * term) : balls := fold_right (moved k) (all_about p) c.
+Lemma inside_shows k c p : all_inside (shows k c p) (shown k (map of_step c) (of_terms p)).
+Proof.
+  induction c as [|s c IH].
+  - destruct p as [[a b] d]. repeat split; apply inside_about.
+  - now apply inside_moved.
+Qed.
+
+(* Whether what is inside one ball is as near to the second number as the third one says: certainly, or certainly not. *)
+Definition is_near (a b w : ball) : bool :=
+  match a, b, w with Some (c, r), Some (d, q), Some (e, u) => (Z.abs (c - d) + r + q + u <=? e)%Z | _, _, _ => false end.
+Definition is_far (a b w : ball) : bool :=
+  match a, b, w with Some (c, r), Some (d, q), Some (e, u) => (e + u + r + q <? Z.abs (c - d))%Z | _, _, _ => false end.
+Lemma distance a b c d r q k : Rabs (a * k - c) <= r -> Rabs (b * k - d) <= q -> 0 < k ->
+  Rabs (c - d) - r - q <= Rabs (a - b) * k <= Rabs (c - d) + r + q.
+Proof.
+  intros A B K. rewrite <- (Rabs_right k) at 1 2 by lra. rewrite <- Rabs_mult.
+  assert (T := Rabs_triang (c - d) ((a * k - c) - (b * k - d))).
+  assert (U := Rabs_triang ((a - b) * k) (- ((a * k - c) - (b * k - d)))).
+  assert (W := Rabs_triang (a * k - c) (- (b * k - d))). rewrite Rabs_Ropp in U, W.
+  replace (c - d + (a * k - c - (b * k - d))) with ((a - b) * k) in T by ring.
+  replace ((a - b) * k + - (a * k - c - (b * k - d))) with (c - d) in U by ring.
+  replace (a * k - c + - (b * k - d)) with (a * k - c - (b * k - d)) in W by ring. lra.
+Qed.
+Lemma near a b w v n h : inside bits a v -> inside bits b n -> inside bits w h -> is_near a b w = true -> Rabs (v - n) <= h.
+Proof.
+  destruct a as [[c r]|], b as [[d q]|], w as [[e u]|]; try discriminate. cbn. intros A B W L.
+  assert (K := scale_positive bits bits_positive). destruct (distance _ _ _ _ _ _ _ A B K) as [_ M].
+  apply Z.leb_le, IZR_le in L. rewrite !plus_IZR, abs_IZR, minus_IZR in L. apply abs_between in W.
+  apply Rmult_le_reg_r with (IZR (scale bits)); [assumption|]. lra.
+Qed.
+Lemma far a b w v n h : inside bits a v -> inside bits b n -> inside bits w h -> is_far a b w = true -> ~ Rabs (v - n) <= h.
+Proof.
+  destruct a as [[c r]|], b as [[d q]|], w as [[e u]|]; try discriminate. cbn. intros A B W L.
+  assert (K := scale_positive bits bits_positive). destruct (distance _ _ _ _ _ _ _ A B K) as [M _].
+  apply Z.ltb_lt, IZR_lt in L. rewrite !plus_IZR, abs_IZR, minus_IZR in L. apply abs_between in W.
+  intro N. apply (Rmult_le_compat_r (IZR (scale bits))) in N; lra.
+Qed.
+Definition all_near (a b w : balls) : bool :=
+  let '(a1, a2, a3) := a in let '(b1, b2, b3) := b in let '(w1, w2, w3) := w in
+  (is_near a1 b1 w1 && is_near a2 b2 w2 && is_near a3 b3 w3)%bool.
+Definition some_far (a b w : balls) : bool :=
+  let '(a1, a2, a3) := a in let '(b1, b2, b3) := b in let '(w1, w2, w3) := w in
+  (is_far a1 b1 w1 || is_far a2 b2 w2 || is_far a3 b3 w3)%bool.
+Lemma holds_there a b w v n h : all_inside a v -> all_inside b n -> all_inside w h -> all_near a b w = true -> rounded_to v n h.
+Proof.
+  destruct a as [[a1 a2] a3], b as [[b1 b2] b3], w as [[w1 w2] w3]. intros (A1 & A2 & A3) (B1 & B2 & B3) (W1 & W2 & W3) L.
+  cbn in L. rewrite !Bool.andb_true_iff in L. destruct L as [[L1 L2] L3]. repeat split; eapply near; eassumption.
+Qed.
+Lemma differs_there a b w v n h : all_inside a v -> all_inside b n -> all_inside w h -> some_far a b w = true -> ~ rounded_to v n h.
+Proof.
+  destruct a as [[a1 a2] a3], b as [[b1 b2] b3], w as [[w1 w2] w3]. intros (A1 & A2 & A3) (B1 & B2 & B3) (W1 & W2 & W3) L.
+  cbn in L. rewrite !Bool.orb_true_iff in L. intros (N1 & N2 & N3). destruct L as [[L|L]|L]; revert L.
+  - intro L. exact (far _ _ _ _ _ _ A1 B1 W1 L N1).
+  - intro L. exact (far _ _ _ _ _ _ A2 B2 W2 L N2).
+  - intro L. exact (far _ _ _ _ _ _ A3 B3 W3 L N3).
+Qed.
+Lemma inside_terms p : all_inside (all_about p) (of_terms p).
+Proof. destruct p as [[a b] c]. repeat split; apply inside_about. Qed.
+Definition less_balls (a b : balls) : balls :=
+  let '(a1, a2, a3) := a in let '(b1, b2, b3) := b in (b_sub a1 b1, b_sub a2 b2, b_sub a3 b3).
+Lemma inside_less a b v w : all_inside a v -> all_inside b w -> all_inside (less_balls a b) (less v w).
+Proof.
+  destruct a as [[a1 a2] a3], b as [[b1 b2] b3]. intros (A1 & A2 & A3) (B1 & B2 & B3). repeat split; now apply inside_sub.
+Qed.
+End Numbers.
+
+(* Two hundred bits behind the point. *)
+Definition precise : whole := 200.
+Lemma precise_positive : (0 <= precise)%Z. Proof. discriminate. Qed.
+Lemma shown_holds k c p n w : all_near (shows precise k c p) (all_about precise n) (all_about precise w) = true ->
+  rounded_to (shown k (map of_step c) (of_terms p)) (of_terms n) (of_terms w).
+Proof.
+  exact (holds_there precise precise_positive _ _ _ _ _ _ (inside_shows _ precise_positive k c p) (inside_terms _ precise_positive n)
+    (inside_terms _ precise_positive w)).
+Qed.
+Lemma shown_differs k c p n w : some_far (shows precise k c p) (all_about precise n) (all_about precise w) = true ->
+  ~ rounded_to (shown k (map of_step c) (of_terms p)) (of_terms n) (of_terms w).
+Proof.
+  exact (differs_there precise precise_positive _ _ _ _ _ _ (inside_shows _ precise_positive k c p)
+    (inside_terms _ precise_positive n) (inside_terms _ precise_positive w)).
+Qed.
+Lemma change_holds k c d p q n w :
+  all_near (less_balls (shows precise k c p) (shows precise k d q)) (all_about precise n) (all_about precise w) = true ->
+  rounded_to (less (shown k (map of_step c) (of_terms p)) (shown k (map of_step d) (of_terms q))) (of_terms n) (of_terms w).
+Proof.
+  exact (holds_there precise precise_positive _ _ _ _ _ _
+    (inside_less precise _ _ _ _ (inside_shows _ precise_positive k c p) (inside_shows _ precise_positive k d q))
+    (inside_terms _ precise_positive n) (inside_terms _ precise_positive w)).
+Qed.
+Lemma change_differs k c d p q n w :
+  some_far (less_balls (shows precise k c p) (shows precise k d q)) (all_about precise n) (all_about precise w) = true ->
+  ~ rounded_to (less (shown k (map of_step c) (of_terms p)) (shown k (map of_step d) (of_terms q))) (of_terms n) (of_terms w).
+Proof.
+  exact (differs_there precise precise_positive _ _ _ _ _ _
+    (inside_less precise _ _ _ _ (inside_shows _ precise_positive k c p) (inside_shows _ precise_positive k d q))
+    (inside_terms _ precise_positive n) (inside_terms _ precise_positive w)).
+Qed.
+
+(* The syntax of a number, of a list of motions, of a vector. *)
+Ltac term_of e :=
+  lazymatch e with
+  | IZR ?n => constr:(Number n)
+  | IZR ?p / IZR ?q => constr:(Ratio p q)
+  | - IZR (Zpos ?p) / IZR ?q => constr:(Ratio (Zneg p) q)
+  | PI => constr:(Pi)
+  | - ?a => let a := term_of a in constr:(Opposite a)
+  | ?a + ?b => let a := term_of a in let b := term_of b in constr:(Sum a b)
+  | ?a - ?b => let a := term_of a in let b := term_of b in constr:(Sum a (Opposite b))
+  | ?a * ?b => let a := term_of a in let b := term_of b in constr:(Product a b)
+  | ?a / ?b => let a := term_of a in let b := term_of b in constr:(Product a (Over b))
+  | / ?a => let a := term_of a in constr:(Over a)
+  | sin ?a => let a := term_of a in constr:(Sine a)
+  | cos ?a => let a := term_of a in constr:(Cosine a)
+  | tan ?a => let a := term_of a in constr:(Product (Sine a) (Over (Cosine a)))
+  | cot ?a => let a := term_of a in constr:(Product (Cosine a) (Over (Sine a)))
+  | sec ?a => let a := term_of a in constr:(Over (Cosine a))
+  | csc ?a => let a := term_of a in constr:(Over (Sine a))
+  | ?a ^ ?n => let a := term_of a in constr:(Power a n)
+  end.
+Ltac steps_of c :=
+  lazymatch c with
+  | [] => constr:(@nil step)
+  | Rot ?a ?e :: ?r => let t := term_of e in let r := steps_of r in constr:(Turn a t :: r)
+  | Tr ?a ?e :: ?r => let t := term_of e in let r := steps_of r in constr:(Shift a t :: r)
+  end.
+Ltac terms_of v :=
+  lazymatch v with V ?a ?b ?c => let a := term_of a in let b := term_of b in let c := term_of c in constr:((a, b, c)) end.
+(* Decides a goal about what is shown at numbers. *)
+Ltac by_numbers :=
+  cbv [app back rev map opposite];
+  lazymatch goal with
+  | |- rounded_to (less (shown ?k ?c ?p) (shown _ ?d ?q)) ?n ?w =>
+    let c := steps_of c in let d := steps_of d in let p := terms_of p in let q := terms_of q in
+    let n := terms_of n in let w := terms_of w in refine (change_holds k c d p q n w _); vm_compute; reflexivity
+  | |- ~ rounded_to (less (shown ?k ?c ?p) (shown _ ?d ?q)) ?n ?w =>
+    let c := steps_of c in let d := steps_of d in let p := terms_of p in let q := terms_of q in
+    let n := terms_of n in let w := terms_of w in refine (change_differs k c d p q n w _); vm_compute; reflexivity
+  | |- rounded_to (shown ?k ?c ?p) ?n ?w =>
+    let c := steps_of c in let p := terms_of p in
+    let n := terms_of n in let w := terms_of w in refine (shown_holds k c p n w _); vm_compute; reflexivity
+  | |- ~ rounded_to (shown ?k ?c ?p) ?n ?w =>
+    let c := steps_of c in let p := terms_of p in
+    let n := terms_of n in let w := terms_of w in refine (shown_differs k c p n w _); vm_compute; reflexivity
+  end.

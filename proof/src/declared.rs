@@ -14,6 +14,8 @@ pub struct Declared {
     chain: Chain,
     bodies: Vec<Vec<WrittenFactor>>,
     observables: Vec<[Expr<()>; 3]>,
+    /// The constants whose values are numbers or multiples of π.
+    constants: Vec<(SymbolId, Poly)>,
     /// Joints, each with the error that stands for its small change.
     changes: Vec<(SymbolId, SymbolId)>,
 }
@@ -64,7 +66,15 @@ impl Declared {
                 _ => None,
             })
             .collect();
-        Ok(Self { chain, bodies, observables, changes: Vec::new() })
+        let constants = declaration
+            .constants()
+            .filter_map(|constant| {
+                let symbol = chain.find_symbol(&constant.name.to_string())?;
+                let value = Poly::from_expr(constant.value.as_ref()?, |_| None, |_| false).ok()?;
+                Some((symbol, value))
+            })
+            .collect();
+        Ok(Self { chain, bodies, observables, constants, changes: Vec::new() })
     }
 
     /// The same declaration with a small change behind every motion of some joints: an error `change_of_q` for a joint `q`. What it
@@ -117,6 +127,11 @@ impl Declared {
     #[must_use]
     pub fn chain(&self) -> &Chain {
         &self.chain
+    }
+
+    /// The declared value of a constant, exactly.
+    pub(super) fn constant(&self, symbol: SymbolId) -> Option<&Poly> {
+        self.constants.iter().find(|(own, _)| *own == symbol).map(|(_, value)| value)
     }
 
     /// The factors of a body.

@@ -6,6 +6,7 @@
 //! be certified is a [`Refusal`].
 
 mod angles;
+mod claimed;
 mod condition;
 mod declared;
 mod defined;
@@ -22,9 +23,11 @@ mod minor;
 mod names;
 mod passage;
 mod readings;
+mod refusal;
 mod section;
 mod shown;
 mod steps;
+mod values;
 mod witness;
 
 use std::fmt::Write as _;
@@ -32,11 +35,11 @@ use std::fmt::Write as _;
 use claims::checker::{ClosedForm, FormVerdict, Order};
 use expression::Term;
 use influence::Influence;
-use model_core::algebra::{AlgebraError, Fraction, Poly};
+use model_core::algebra::{Fraction, Poly};
 use model_core::chain::{Axis, BodyId, Chain, ObservableId, Role, TransformKind};
 use model_core::escape::comments::coq as comment;
 use model_core::expr::Expr;
-use model_core::forms::{self, FormError};
+use model_core::forms;
 use model_core::print;
 use model_core::symbol::{SymbolId, SymbolKind};
 use model_core::syntax;
@@ -44,110 +47,12 @@ use names::Names;
 use section::{Question, Section};
 
 pub use declared::Declared;
+pub use refusal::Refusal;
 
 /// What every certificate stands on: the meaning of a chain, and the rules by which a certificate calculates, proved.
 pub const LIBRARY: &str = include_str!("../certificates/TrueAxis.v");
 /// The name under which a certificate looks for [`LIBRARY`].
 pub const LIBRARY_FILE: &str = "TrueAxis.v";
-
-/// Why something cannot be certified.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum Refusal {
-    /// The chain has no closed form.
-    #[error(transparent)]
-    Form(#[from] FormError),
-    /// What the algebra refuses.
-    #[error(transparent)]
-    Algebra(#[from] AlgebraError),
-    /// A sine or cosine of a high multiple of an angle.
-    #[error(
-        "the sine or cosine of {multiple} times an angle; certificates go up to {} times",
-        expanded::HARMONIC_LIMIT
-    )]
-    Harmonic {
-        /// The multiple.
-        multiple: u32,
-    },
-    /// More than Coq calculates with in reasonable time.
-    #[error(
-        "a vector of {terms} terms on the way through the chain; certificates go up to {limit}, with which Coq is busy for minutes. \
-         A claim that keeps few errors has fewer"
-    )]
-    TooLarge {
-        /// How many terms there are.
-        terms: usize,
-        /// How many there may be.
-        limit: usize,
-    },
-    /// Nowhere among rational points and quarter turns is the difference a number other than zero.
-    #[error("no place with rational values was found at which the printed and the derived value differ")]
-    NoWitness,
-    /// A formula of ours that does not read back as it was printed; a defect of trueaxis.
-    #[error("the formula `{text}` does not read back")]
-    Unreadable {
-        /// The formula.
-        text: String,
-    },
-    /// Nowhere among rational points and quarter turns do the errors show themselves as independent.
-    #[error("no poses with rational values were found at which the errors show themselves as independent")]
-    NoMinor,
-    /// Too many unknowns for the linear arithmetic of Coq.
-    #[error("{unknowns} errors together; certificates solve for up to {limit}")]
-    ManyUnknowns {
-        /// How many there are.
-        unknowns: usize,
-        /// How many there may be.
-        limit: usize,
-    },
-    /// A difference that only values of a ramp would show.
-    #[error(
-        "printed and derived differ in what stands beside a ramp; certificates do not put numbers into ramps"
-    )]
-    Ramp,
-    /// A line of sight that is bent, or an error that follows its angle from up.
-    #[error(
-        "the line of sight of `{name}` is bent or has an angle from up, of which certificates do not speak"
-    )]
-    LineOfSight {
-        /// The observable.
-        name: String,
-    },
-    /// A claim of another kind than certificates speak of.
-    #[error(
-        "certificates speak of forms to an order, of one face, without half angles and roots, and of vectors without quotients \
-         by sums"
-    )]
-    Claim,
-    /// An image point.
-    #[error(
-        "certificates do not know image points yet, as the {reading} of a camera; certify the point in the frame of the camera"
-    )]
-    Image {
-        /// The reading in words.
-        reading: String,
-    },
-    /// How a body is turned.
-    #[error(
-        "{reading} of an orientation; certificates speak of vectors: claim the directions of its three axes"
-    )]
-    Orientation {
-        /// The reading in words.
-        reading: String,
-    },
-    /// An angle or a length beyond first order.
-    #[error("the {reading} to order {order}; certificates state angles and lengths to first order")]
-    ReadingToOrder {
-        /// The reading in words.
-        reading: String,
-        /// The order.
-        order: u32,
-    },
-    /// A quotient that exists nowhere, or not where the claim is looked at.
-    #[error(
-        "it divides by something other than products of numbers, symbols, sines and cosines of single angles"
-    )]
-    Divisor,
-}
 
 /// A certificate that is being written: statements are added one by one, each with its proof.
 #[derive(Debug)]

@@ -14,7 +14,7 @@ const WORDS: &str = "Axiom CoFixpoint Eval Fixpoint Parameter Variable as at cof
 
 /// Words that the text of a certificate gives a meaning to.
 const OWN: &str = "instrument vector printed derived claim holds differs there same_chain is_derived for_all size x_of_formula \
-    y_of_formula z_of_formula first_formula second_formula x_differs y_differs z_differs seen is_seen C0 C1 C2 C E H D P Q";
+    y_of_formula z_of_formula first_formula second_formula x_differs y_differs z_differs seen is_seen designed within C0 C1 C2 C E H D P Q";
 /// Beginnings of such words, before a number or a name.
 const OWN_BEGINNINGS: [&str; 12] = [
     "from_", "step_", "cos_of_", "sin_of_", "body_", "at_", "defined_", "angle_", "cosine_", "sine_",

@@ -65,7 +65,7 @@ pub use sizes::{Bound, BoundVerdict, Combined, Limits, Outcome, Size, SizeMeasur
 pub use slip::{FormSlip, FormSlipKind, TermSlip};
 pub use total::TotalVerdict;
 pub use turn::PrintedTurn;
-pub use values::{ValueVerdict, Values};
+pub use values::{Exactly, Given, ValueVerdict, Values, exact_leeway};
 pub use verdict::{Counted, Difference, FormVerdict, Means, Measured, Verdict};
 pub use written::TextPlace;
 

@@ -20,8 +20,7 @@ pub fn as_json(file: &Claims, checked: &Checked<'_>) -> Value {
         Means::Sampled => "sampled",
         Means::Proven => "proven",
     };
-    let mut claim =
-        json!({"name": checked.claim.name, "verdict": verdict, "means": means, "differences": []});
+    let mut claim = json!({"name": checked.claim.name, "equation": checked.claim.texts, "verdict": verdict, "means": means, "differences": []});
     let names = |ids: &[model_core::SymbolId]| -> Vec<Value> {
         ids.iter().map(|&id| Value::from(file.chain.symbol(id).name.as_str())).collect()
     };

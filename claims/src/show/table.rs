@@ -215,13 +215,26 @@ fn markdown(title: &str, lines: &[Line], total: &str) -> String {
     out
 }
 
+/// The columns of a table in LaTeX: an equation has a line of its own below them, as wide as the page.
+const LATEX_COLUMNS: &str = "\\begin{longtable}{>{\\raggedright}p{0.25\\textwidth}p{0.1\\textwidth}>{\\raggedright\\arraybackslash}p{0.5\\textwidth}}\n";
+const LATEX_LINE: &str = r">{\raggedright\arraybackslash}p{0.9\textwidth}";
+
+/// A formula that stays on the page: in a line it breaks at its signs; what cannot break is made smaller where it is too wide.
+fn fitting(formula: &str) -> String {
+    if formula.contains(r"\begin{") || formula.contains(r"\left") {
+        format!(r"\adjustbox{{max width=\linewidth}}{{$\displaystyle {formula}$}}")
+    } else {
+        format!("${formula}$")
+    }
+}
+
 fn latex(title: &str, lines: &[Line], total: &str) -> String {
     let words = escape::latex;
     let cell = |pieces: &[Piece]| -> String {
         let written = pieces.iter().map(|piece| match piece {
             Piece::Words(text) => words(text).into_owned(),
             Piece::Formula(text) => match escape::latex_formula(&on_one_line(text)) {
-                None => format!("${}$", on_one_line(text)),
+                None => fitting(&on_one_line(text)),
                 Some(_) => format!(r"\texttt{{{}}}", words(text)),
             },
             Piece::Code(text) => format!(r"\texttt{{{}}}", words(text)),
@@ -229,19 +242,17 @@ fn latex(title: &str, lines: &[Line], total: &str) -> String {
         written.collect()
     };
     let mut out = format!(
-        "{}% needs \\usepackage{{longtable,amsmath}}\n\\begin{{longtable}}{{p{{0.15\\textwidth}}p{{0.35\\textwidth}}p{{0.1\\textwidth}}p{{0.3\\textwidth}}}}\nclaim & equation & verdict & what differs \\\\ \\hline\n",
+        "{}% needs \\usepackage{{longtable,array,amsmath,adjustbox}}\n{LATEX_COLUMNS}claim and equation & verdict & what differs \\\\ \\hline\n",
         escape::comments::latex(&escape::line(title))
     );
     for line in lines {
         let remarks: Vec<String> = line.remarks.iter().map(|remark| cell(remark)).collect();
-        let _ = writeln!(
-            out,
-            "{} & {} & {} & {} \\\\",
-            words(&line.name),
-            cell(&line.equation),
-            line.verdict,
-            remarks.join(r" \newline ")
-        );
+        let _ =
+            writeln!(out, "{} & {} & {} \\\\*", words(&line.name), line.verdict, remarks.join(r" \newline "));
+        if !line.equation.is_empty() {
+            let _ = writeln!(out, r"\multicolumn{{3}}{{{LATEX_LINE}}}{{{}}} \\", cell(&line.equation));
+        }
+        out.push_str("\\hline\n");
     }
     let _ = writeln!(out, "\\end{{longtable}}\n{}", words(total));
     out

@@ -2,14 +2,11 @@
 
 use std::path::PathBuf;
 
-use claims::checker::entries::{Entries, EntriesOf};
-use claims::checker::{Checker, Claim, Order, Rank, RankSaid, Verdict, extended, only_of};
 use claims::file::{Checked, Unread};
 use claims::show::{self, as_json, as_text, unread_as_json};
+use model_core::Mistakes;
 use model_core::escape::{self, Screen};
-use model_core::identify::{Holds, identify};
-use model_core::{Mistakes, SymbolId, SymbolKind};
-use proof::{Certificate, Declared, Refusal};
+use proof::{Certificate, Declared};
 use serde_json::{Value, json};
 use service::claims_file::ClaimsFile;
 
@@ -153,64 +150,17 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     Ok(if all_hold { Answer::Done } else { Answer::No })
 }
 
-/// The verdicts as a certificate.
+/// The verdicts as a certificate; a claim that cannot be certified is named in it, and on the terminal, with the reason.
 fn certify(file: &ClaimsFile, checked: &[Checked<'_>]) -> Result<String, Failure> {
     let declaration = &file.declaration;
     let declared =
         Declared::from_text(&declaration.text).map_err(|mistakes| declaration.mistakes(&mistakes))?;
-    let varied: Vec<SymbolId> = checked
-        .iter()
-        .filter_map(|checked| match &checked.claim.claim {
-            Claim::Entries(entries) => Some(&entries.of),
-            _ => None,
-        })
-        .filter_map(|of| match of {
-            EntriesOf::Jacobian { by, .. } => Some(by),
-            _ => None,
-        })
-        .flatten()
-        .copied()
-        .collect();
-    let declared = declared.with_changes(&varied);
+    let declared = declared.with_changes_of(checked.iter().map(|checked| &checked.claim.claim));
     let mut certificate = Certificate::new(&declared);
     for Checked { claim, verdict } in checked {
         certificate.printed_as(&claim.texts);
-        match (&claim.claim, verdict) {
-            (Claim::ClosedForm(form), Verdict::ClosedForm(verdict)) => {
-                let written = certificate.closed_form(&claim.name, form, verdict);
-                note_refusal(&mut certificate, &claim.name, written);
-            }
-            (Claim::Equality(equality), Verdict::Equality(verdict)) => {
-                let written = certificate.equality(&claim.name, equality, verdict);
-                note_refusal(&mut certificate, &claim.name, written);
-            }
-            (Claim::Entries(entries), Verdict::Entries(_)) => {
-                let written = of_entries(&mut certificate, &declared, &claim.name, entries, verdict.holds());
-                if let Err(why) = written {
-                    certificate.not_certified(&claim.name, &why);
-                }
-            }
-            (Claim::Rank(rank), Verdict::Rank(verdict)) if verdict.holds => {
-                let written = of_rank(&mut certificate, &declared, rank);
-                if let Err(why) = written {
-                    certificate.not_certified(&claim.name, &why);
-                }
-            }
-            (_, Verdict::Comparison(_) | Verdict::Size(_)) => {
-                certificate
-                    .not_certified(&claim.name, "influences are measured in floating point, not proved");
-            }
-            (_, Verdict::Bound(_)) => {
-                certificate.not_certified(&claim.name, "the bound is proved by interval arithmetic in rounded numbers, which Coq's library does not have");
-            }
-            (_, Verdict::Values(_)) => {
-                certificate.not_certified(&claim.name, "numbers are computed in floating point; Coq's library has no sines of decimal angles. Claim the formula");
-            }
-            (_, Verdict::Rank(_) | Verdict::Total(_) | Verdict::Entries(_)) => {
-                certificate.not_certified(&claim.name, "certificates speak of closed forms");
-            }
-            _ => certificate
-                .not_certified(&claim.name, "a count is of names in the declaration, and no formula"),
+        if let Err(refusal) = certificate.claim(&claim.name, &claim.claim, verdict) {
+            certificate.not_certified(&claim.name, &refusal.to_string());
         }
     }
     for note in certificate.notes() {
@@ -221,76 +171,4 @@ fn certify(file: &ClaimsFile, checked: &[Checked<'_>]) -> Result<String, Failure
         return Err(Failure::Input(why.to_owned()));
     }
     Ok(certificate.finish(&file.source.path.display().to_string()))
-}
-
-/// What is shown without errors, or a Jacobian.
-fn of_entries(
-    certificate: &mut Certificate<'_>,
-    declared: &Declared,
-    name: &str,
-    entries: &Entries,
-    holds: bool,
-) -> Result<(), String> {
-    match (&entries.of, entries.order) {
-        (EntriesOf::Shown(observable), Order::UpTo(0)) => certificate
-            .shown(name, *observable, &entries.printed, holds)
-            .map_err(|refusal| refusal.to_string()),
-        (EntriesOf::Shown(_), _) => {
-            Err("certificates speak of what is shown without errors; claim what the errors add by `components`".to_owned())
-        }
-        (EntriesOf::Frame { .. }, _) => Err(
-            "certificates speak of vectors, not of matrices; claim each column by `shows`, as a direction of the body".to_owned(),
-        ),
-        _ => jacobian(certificate, declared, name, entries),
-    }
-}
-
-/// A Jacobian, column by column.
-fn jacobian(
-    certificate: &mut Certificate<'_>,
-    declared: &Declared,
-    name: &str,
-    entries: &Entries,
-) -> Result<(), String> {
-    let chain = extended(declared.chain());
-    let is_error = |id: SymbolId| chain.symbol(id).kind == SymbolKind::Error;
-    let standing = |id: SymbolId| if is_error(id) { Some(id) } else { declared.change_of(id) };
-    let columns = entries
-        .columns(&chain, standing)
-        .ok_or("certificates speak of Jacobians of points and directions, by errors and joints")?;
-    let mut checker = Checker::new(&chain);
-    for column in columns {
-        let verdict = checker.closed_form(&column.form).map_err(|error| error.to_string())?;
-        let title = format!(
-            "{name}, {} by {}",
-            chain.observable(column.observable).name,
-            chain.symbol(column.by).name
-        );
-        certificate.closed_form(&title, &column.form, &verdict).map_err(|refusal| refusal.to_string())?;
-    }
-    Ok(())
-}
-
-/// A rank, from above by errors without influence and combinations of others, and from below by independent errors.
-fn of_rank(certificate: &mut Certificate<'_>, declared: &Declared, rank: &Rank) -> Result<(), String> {
-    let errors = &rank.errors;
-    if let RankSaid::Separable(others) = &rank.said {
-        return certificate
-            .independent(&rank.observables, others, errors)
-            .map_err(|refusal| refusal.to_string());
-    }
-    let chain = only_of(declared.chain(), errors).map_err(|error| error.to_string())?;
-    let found = identify(&chain, &rank.observables).map_err(|error| error.to_string())?;
-    if found.holds != Holds::Everywhere {
-        return Err("the answer is at the declared values of the constants".to_owned());
-    }
-    certificate.identifiability(&found, |error| errors.contains(&error));
-    Ok(())
-}
-
-/// A claim that cannot be certified is named in the certificate, and on the terminal, with the reason.
-fn note_refusal(certificate: &mut Certificate<'_>, name: &str, written: Result<(), Refusal>) {
-    if let Err(refusal) = written {
-        certificate.not_certified(name, &refusal.to_string());
-    }
 }

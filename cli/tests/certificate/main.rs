@@ -148,3 +148,44 @@ fn a_file_of_the_users_is_not_taken_for_the_library() {
     );
     assert_eq!((folder.names(), folder.read("TrueAxis.v").as_str()), (names, "(* my own work *)\n"));
 }
+
+/// Numbers at readings are certified; what is measured, counted or a matrix is said with its reason.
+#[test]
+fn numbers_are_certified_and_what_is_no_theorem_has_a_reason() {
+    let folder = folder("numbers");
+    folder.write(
+        "arm.chain",
+        "chain Arm { const l: length = 0.8; body a on ground { motion: Rz(q); motion_error: Rz(e); position: Tx(l); } \
+         observe tip: point(0, 0, 0) of a; }",
+    );
+    let value = |number: &str| {
+        format!(
+            "[[claim]]\nname = \"number {number}\"\nobservable = \"tip\"\n\
+             value = {{ at = {{ q = \"90 deg\" }}, errors = {{ e = \"0.01 deg\" }}, equals = [\"{number} um\", \"0.0 um\", \"0 mm\"] }}\n"
+        )
+    };
+    let frame = "[[claim]]\nname = \"frame\"\nbody = \"a\"\nframe = '\\begin{bmatrix} \\cos q & -\\sin q & 0 \\\\ \
+                 \\sin q & \\cos q & 0 \\\\ 0 & 0 & 1 \\end{bmatrix}'\n";
+    let bound = "[[claim]]\nname = \"bound\"\nobservable = \"tip\"\nbound = { errors = { e = \"1 mrad\" }, at_most = \"1 mm\" }\n";
+    let claims = ["chain = \"arm.chain\"\n", &value("-139.6"), &value("-139.7"), frame, bound].concat();
+    folder.write("arm.toml", &claims);
+    let run = folder.trueaxis(&["check", "arm.toml", "--certificate", "c.v"]);
+    assert_eq!(run.code, 1, "{}", run.stderr);
+    for said in
+        ["frame: certificates speak of vectors, not of matrices", "bound: the bound comes from interval"]
+    {
+        assert!(run.stderr.contains(&format!("not certified: {said}")), "{}", run.stderr);
+    }
+    let text = folder.read("c.v");
+    for said in [
+        "Definition q : R := 1 / 2 * PI.",
+        "Definition e : R := 1 / 18000 * PI.",
+        "(- 349 / 2500000)",
+        "Print Assumptions number_139_6.holds.",
+        "Print Assumptions number_139_7.differs.",
+    ] {
+        assert!(text.contains(said), "{said}: {text}");
+    }
+    let json = folder.trueaxis(&["check", "arm.toml", "--format", "json"]);
+    assert!(json.stdout.contains(r#""equation": ["#), "{}", json.stdout);
+}

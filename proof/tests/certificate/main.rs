@@ -8,3 +8,4 @@ mod readings;
 mod shown;
 mod statements;
 mod support;
+mod values;

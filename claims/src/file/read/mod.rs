@@ -5,6 +5,7 @@
 
 mod chains;
 mod entries;
+mod exactly;
 mod formulas;
 mod kinds;
 mod measures;

@@ -1,12 +1,14 @@
 //! Claims that are numbers: values at one pose, and what is small enough to be neglected.
 
+use model_core::algebra::{Poly, Rational};
 use model_core::{Quantity, SymbolKind, names, syntax};
 use toml::{Spanned, Value};
 
 use super::super::strings::place_in_string;
 use super::super::table::ClaimTable;
+use super::exactly::exactly;
 use super::{Place, Reader, each};
-use crate::checker::{Claim, Combined, Limits, Size, SizeMeasure, Values, lower};
+use crate::checker::{Claim, Combined, Exactly, Limits, Size, SizeMeasure, Values, lower};
 
 impl Reader<'_> {
     /// Numbers at one pose, with errors of stated sizes.
@@ -29,6 +31,7 @@ impl Reader<'_> {
             }
         };
         let mut values = self.chain.nominal_values();
+        let mut exact = Some(Exactly::default());
         for (name, text) in &table.at {
             let chain = self.chain;
             let kinds = [SymbolKind::Joint, SymbolKind::Input, SymbolKind::Constant];
@@ -43,11 +46,23 @@ impl Reader<'_> {
                 self.mistake(name.span(), message).help = help;
                 return None;
             };
-            values[id.index()] = self.number_of(text, chain.symbol(id).quantity)?;
+            let quantity = chain.symbol(id).quantity;
+            let value = self.number_of(text, quantity)?;
+            values[id.index()] = value;
+            let number = exactly(chain, text.get_ref(), quantity, value);
+            exact = exact.and_then(|exact| exact.giving(id, number, text.get_ref()));
         }
         for (name, size) in &table.errors {
             for error in self.errors_of(name.get_ref(), name.span())? {
-                values[error.index()] = self.signed(size, self.chain.symbol(error).quantity)?;
+                let (chain, quantity) = (self.chain, self.chain.symbol(error).quantity);
+                let value = self.signed(size, quantity)?;
+                values[error.index()] = value;
+                let written = match size.get_ref() {
+                    Value::String(text) => text.clone(),
+                    other => other.to_string(),
+                };
+                let number = exactly(chain, &written, quantity, value);
+                exact = exact.and_then(|exact| exact.giving(error, number, &written));
             }
         }
         let shown = self.chain.observable(observable);
@@ -64,9 +79,15 @@ impl Reader<'_> {
                 "m" => Quantity::Length,
                 _ => Quantity::Number,
             };
-            claimed.push(self.rounded(text, place, quantity, table.within.as_ref())?);
+            let (numbers, rounded) = self.rounded(text, place, quantity, table.within.as_ref())?;
+            claimed.push(numbers);
+            exact = exact.and_then(|mut exact| {
+                exact.claimed.push(rounded?);
+                exact.written.push(text.to_owned());
+                Some(exact)
+            });
         }
-        Some(Claim::Values(Values { observable, is_error, values, claimed }))
+        Some(Claim::Values(Values { observable, is_error, values, claimed, exactly: exact }))
     }
 
     /// A quantity, or an amount of numbers and π.
@@ -108,14 +129,15 @@ impl Reader<'_> {
         }
     }
 
-    /// A printed number in SI, and half of what its last digit stands for.
+    /// A printed number in SI, and half of what its last digit stands for; the same exactly.
     fn rounded(
         &mut self,
         text: &str,
         place: Place,
         quantity: Quantity,
         within: Option<&Spanned<String>>,
-    ) -> Option<[f64; 2]> {
+    ) -> Option<([f64; 2], Option<[Poly; 2]>)> {
+        let chain = self.chain;
         let value = match self.edge.quantity(text, quantity) {
             Ok(value) => value,
             Err(why) => {
@@ -127,7 +149,10 @@ impl Reader<'_> {
         };
         if let Some(within) = within {
             let size = self.number_of(within, quantity)?;
-            return Some([value, size.abs()]);
+            let exact = exactly(chain, text, quantity, value)
+                .zip(exactly(chain, within.get_ref(), quantity, size))
+                .map(|(value, half)| [value, if size < 0.0 { -&half } else { half }]);
+            return Some(([value, size.abs()], exact));
         }
         let Some((digits, exponent)) = last_digit(text) else {
             let message = "how far this number is rounded cannot be seen";
@@ -135,11 +160,13 @@ impl Reader<'_> {
             return None;
         };
         // What one of the number's own units is in SI.
-        let unit = match text.split_at_checked(digits) {
-            Some((_, unit)) => self.edge.quantity(&format!("1{unit}"), quantity).unwrap_or(1.0),
-            None => 1.0,
-        };
-        Some([value, 0.5 * 10f64.powi(exponent) * unit.abs()])
+        let one = format!("1{}", text.get(digits..).unwrap_or_default());
+        let unit = self.edge.quantity(&one, quantity).unwrap_or(1.0);
+        let half = Rational::parse_decimal(&format!("5e{}", exponent.saturating_sub(1))).ok();
+        let exact = exactly(chain, text, quantity, value)
+            .zip(exactly(chain, &one, quantity, unit))
+            .and_then(|(value, unit)| Some([value, unit.scale(&half?)]));
+        Some(([value, 0.5 * 10f64.powi(exponent) * unit.abs()], exact))
     }
 
     /// That what some errors do stays below a size, whatever else is there.

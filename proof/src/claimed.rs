@@ -1,0 +1,92 @@
+//! What is claimed of a chain, with the verdict: which statement that is, or why there is none.
+
+use claims::checker::entries::{Entries, EntriesOf};
+use claims::checker::{CheckError, Checker, Claim, Order, Rank, RankSaid, Verdict, extended, only_of};
+use model_core::identify::{Holds, identify};
+use model_core::symbol::{SymbolId, SymbolKind};
+
+use super::{Certificate, Declared, Refusal};
+
+impl Declared {
+    /// The same declaration, ready for these claims: with a small change of each joint that a Jacobian is by.
+    #[must_use]
+    pub fn with_changes_of<'c>(self, claims: impl Iterator<Item = &'c Claim>) -> Self {
+        let mut varied: Vec<SymbolId> = Vec::new();
+        for claim in claims {
+            let Claim::Entries(entries) = claim else { continue };
+            if let EntriesOf::Jacobian { by, .. } = &entries.of {
+                varied.extend(by);
+            }
+        }
+        self.with_changes(&varied)
+    }
+}
+
+impl Certificate<'_> {
+    /// States what is claimed and proves the verdict on it.
+    ///
+    /// # Errors
+    /// [`Refusal`].
+    pub fn claim(&mut self, title: &str, claim: &Claim, verdict: &Verdict) -> Result<(), Refusal> {
+        match (claim, verdict) {
+            (Claim::ClosedForm(form), Verdict::ClosedForm(found)) => self.closed_form(title, form, found),
+            (Claim::Equality(equality), Verdict::Equality(found)) => self.equality(title, equality, found),
+            (Claim::Entries(entries), _) => self.entries(title, entries, verdict.holds()),
+            (Claim::Values(values), _) => self.values(title, values, verdict.holds()),
+            (Claim::Rank(rank), _) if verdict.holds() => self.rank(rank),
+            (Claim::Rank(_), _) => Err(Refusal::RankDiffers),
+            (Claim::Comparison(_) | Claim::Size(_), _) => Err(Refusal::Measured),
+            (Claim::Bound(_), _) => Err(Refusal::Bound),
+            (Claim::Total(_), _) => Err(Refusal::Total),
+            (Claim::Count(_), _) => Err(Refusal::Count),
+            (Claim::ClosedForm(_) | Claim::Equality(_), _) => {
+                unreachable!("a formula has a verdict of its own kind")
+            }
+        }
+    }
+
+    /// What is shown without errors, or a Jacobian.
+    fn entries(&mut self, title: &str, entries: &Entries, holds: bool) -> Result<(), Refusal> {
+        match (&entries.of, entries.order) {
+            (EntriesOf::Shown(observable), Order::UpTo(0)) => {
+                self.shown(title, *observable, &entries.printed, holds)
+            }
+            (EntriesOf::Shown(_), _) => Err(Refusal::ShownWithErrors),
+            (EntriesOf::Frame { .. }, _) => Err(Refusal::Frame),
+            (EntriesOf::Image(_), _) => Err(Refusal::Image { reading: "pixels".to_owned() }),
+            (EntriesOf::Jacobian { .. }, _) => self.jacobian(title, entries),
+        }
+    }
+
+    /// A Jacobian, column by column.
+    fn jacobian(&mut self, title: &str, entries: &Entries) -> Result<(), Refusal> {
+        let declared = self.declared;
+        let chain = extended(declared.chain());
+        let is_error = |id: SymbolId| chain.symbol(id).kind == SymbolKind::Error;
+        let standing = |id: SymbolId| if is_error(id) { Some(id) } else { declared.change_of(id) };
+        let columns = entries.columns(&chain, standing).ok_or(Refusal::Jacobian)?;
+        let mut checker = Checker::new(&chain);
+        for column in columns {
+            let verdict = checker.closed_form(&column.form)?;
+            let observable = &chain.observable(column.observable).name;
+            let title = format!("{title}, {observable} by {}", chain.symbol(column.by).name);
+            self.closed_form(&title, &column.form, &verdict)?;
+        }
+        Ok(())
+    }
+
+    /// A rank, from above by errors without influence and combinations of others, and from below by independent errors.
+    fn rank(&mut self, rank: &Rank) -> Result<(), Refusal> {
+        let errors = &rank.errors;
+        if let RankSaid::Separable(others) = &rank.said {
+            return self.independent(&rank.observables, others, errors);
+        }
+        let chain = only_of(self.declared.chain(), errors)?;
+        let found = identify(&chain, &rank.observables).map_err(CheckError::from)?;
+        if found.holds != Holds::Everywhere {
+            return Err(Refusal::DeclaredValues);
+        }
+        self.identifiability(&found, |error| errors.contains(&error));
+        Ok(())
+    }
+}

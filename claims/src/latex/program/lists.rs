@@ -33,7 +33,13 @@ pub(super) fn marked(tokens: Vec<Token>) -> Result<Vec<Token>, Unreadable> {
     Ok(found)
 }
 
+/// Where the bracket closes that opens at a token.
 fn closing(tokens: &[Token], open: usize) -> Result<usize, Unreadable> {
+    let opens = tokens.get(open).is_some_and(|token| matches!(token.kind, Kind::Mark('(' | '[')));
+    if !opens {
+        let place = tokens.get(open).or(tokens.last()).map_or(0..0, |token| token.place.clone());
+        return Err(Mistake::new(place, "a function needs its argument in brackets, as in `sqrt(x)`"));
+    }
     let mut depth = 0usize;
     for (at, token) in tokens.iter().enumerate().skip(open) {
         match token.kind {

@@ -120,7 +120,9 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
             escape::json(&format!("{said:#}\n")).into()
         }
     };
-    let certificate = if is_certified { Some(certify(&file, &checked)?) } else { None };
+    // Where no claim was read, what is wrong with them is the answer.
+    let certificate =
+        if is_certified && !checked.is_empty() { Some(certify(&file, &checked)?) } else { None };
     arguments.certificate.write(certificate.as_deref())?;
     match arguments.format {
         Shape::Text => terminal::print_formulas(output)?,

@@ -186,6 +186,9 @@ fn numbers_are_certified_and_what_is_no_theorem_has_a_reason() {
     ] {
         assert!(text.contains(said), "{said}: {text}");
     }
+    folder.write("wrong.toml", ["chain = \"arm.chain\"\n", &value("1e999999999")].concat());
+    let wrong = folder.trueaxis(&["check", "wrong.toml", "--certificate", "wrong.v"]);
+    assert!(wrong.code == 2 && wrong.stderr.contains("wrong.toml:"), "{}", wrong.stderr);
     let json = folder.trueaxis(&["check", "arm.toml", "--format", "json"]);
     assert!(json.stdout.contains(r#""equation": ["#), "{}", json.stdout);
 }

@@ -14,7 +14,7 @@ mod trial;
 use model_core::SymbolId;
 use serde::Serialize;
 
-use observe::SiUnit;
+use observe::{Observations, SiUnit};
 use study::{Plan, Sample};
 
 use hypotheses::Written;
@@ -68,7 +68,7 @@ pub fn misread(plan: &Plan, sample: &Sample) -> Option<Misread> {
     let as_read =
         again.into_iter().fold(as_read, |one, other| if other.total > one.total { other } else { one });
     let margin = best.total - as_read.total;
-    readings.retain(|tried| explains(&trial, tried, &as_read));
+    readings.retain(|tried| explains(&trial, tried, &as_read, &trial.own));
     let top = readings.first()?.score.total;
     readings.retain(|tried| top - tried.score.total <= ONE_OF);
     let after = readings.first()?.score.rms;
@@ -89,9 +89,9 @@ pub fn misread(plan: &Plan, sample: &Sample) -> Option<Misread> {
 
 /// Whether a reading explains what another, the study's own or a simpler one, does not. What only rounding leaves there is nothing to
 /// explain of.
-fn explains(trial: &Trial<'_>, tried: &Tried, as_read: &Score) -> bool {
+fn explains(trial: &Trial<'_>, tried: &Tried, as_read: &Score, own: &Observations) -> bool {
     let rounding = trial.rounding;
-    let Tried { hypothesis, score, .. } = tried;
+    let Tried { hypothesis, score, observations } = tried;
     let ratio = if as_read.rms > rounding { score.scale / as_read.scale } else { 1.0 };
     let is_gross = match &hypothesis.reading {
         Reading::Shifted { .. } => ratio <= RATIO_ROWS,
@@ -109,8 +109,8 @@ fn explains(trial: &Trial<'_>, tried: &Tried, as_read: &Score) -> bool {
         }
     };
     let margin = if matches!(hypothesis.reading, Reading::TwoStates { .. }) { STATES_MARGIN } else { MARGIN };
-    // What needs an error that is too large to be one explains nothing, unless the study's own reading needs one too.
-    let is_plausible = !trial.is_beyond(score) || trial.is_beyond(as_read);
+    // What needs too large an error or leaves too large a residual explains nothing, unless the study's own reading does so too.
+    let is_plausible = !trial.is_implausible(score, observations) || trial.is_implausible(as_read, own);
     score.total - as_read.total >= margin && is_gross && is_plausible
 }
 

@@ -8,7 +8,7 @@ use observe::Observations;
 use study::{Changed, Plan, Sample, SampledColumn};
 
 use super::hypotheses::{self, Hypothesis, QUARTERS, both, from_row};
-use super::policy::{FITTED, PAIRED, PARTS, ROUGH_SHARE, SCREENED_STEPS};
+use super::policy::{FITTED, MOST_RESIDUAL_SHARE, PAIRED, PARTS, ROUGH_SHARE, SCREENED_STEPS};
 use super::prior::{Priors, indexed, measured_size};
 use super::score::{Score, jacobian, score};
 use super::{explains, states};
@@ -18,7 +18,7 @@ use super::{explains, states};
 pub(super) struct Tried {
     pub hypothesis: Hypothesis,
     pub score: Score,
-    observations: Observations,
+    pub observations: Observations,
 }
 
 /// The rows of a sample, and what their fits go by.
@@ -60,9 +60,9 @@ impl<'a> Trial<'a> {
         [hypothesis.changes.iter().any(is_joint), hypothesis.changes.iter().all(is_joint)]
     }
 
-    /// Whether a reading needs an error that is too large to be one.
-    pub fn is_beyond(&self, score: &Score) -> bool {
-        self.priors.is_beyond(&score.values)
+    /// Whether a reading needs an error that is too large to be one, or leaves a large part of what was measured.
+    pub fn is_implausible(&self, score: &Score, observations: &Observations) -> bool {
+        score.rms > MOST_RESIDUAL_SHARE * measured_size(observations) || self.priors.is_beyond(&score.values)
     }
 
     /// The score of the study's own reading. It alone is worth other starts: most other readings are wrong and end far off.
@@ -100,12 +100,12 @@ impl<'a> Trial<'a> {
         if is_rough {
             let mut pairs = self.pairs(&screened);
             best_first(&mut pairs);
-            let single = finalists.first().map(|best| best.score.clone());
+            let single = finalists.first().cloned();
             let pairs = self.to_the_end(&pairs).into_iter();
             // A second mistake explains what the first leaves.
-            finalists.extend(
-                pairs.filter(|pair| single.as_ref().is_none_or(|single| explains(self, pair, single))),
-            );
+            finalists.extend(pairs.filter(|pair| {
+                single.as_ref().is_none_or(|single| explains(self, pair, &single.score, &single.observations))
+            }));
         }
         finalists.extend(self.two_states(as_read));
         best_first(&mut finalists);

@@ -114,10 +114,13 @@ pub fn note(message: impl Display) {
 
 /// Says on a terminal how to begin the next command where a shell does not find `trueaxis`: what was printed begins with this name.
 pub fn note_how_to_begin() {
+    if !std::io::stderr().is_terminal() {
+        return;
+    }
     let name = format!("trueaxis{}", std::env::consts::EXE_SUFFIX);
     let path = std::env::var_os("PATH").unwrap_or_default();
     let is_found = std::env::split_paths(&path).any(|folder| folder.join(&name).is_file());
-    if is_found || !std::io::stderr().is_terminal() {
+    if is_found {
         return;
     }
     let typed = std::env::args_os().next().unwrap_or_default();

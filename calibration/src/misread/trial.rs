@@ -62,7 +62,12 @@ impl<'a> Trial<'a> {
 
     /// Whether a reading needs an error that is too large to be one, or leaves a large part of what was measured.
     pub fn is_implausible(&self, score: &Score, observations: &Observations) -> bool {
-        score.rms > MOST_RESIDUAL_SHARE * measured_size(observations) || self.priors.is_beyond(&score.values)
+        self.is_off(MOST_RESIDUAL_SHARE, score, observations)
+    }
+
+    /// Whether a reading leaves more than a share of what was measured, or needs an error that is too large to be one.
+    fn is_off(&self, share: f64, score: &Score, observations: &Observations) -> bool {
+        score.rms > share * measured_size(observations) || self.priors.is_beyond(&score.values)
     }
 
     /// The score of the study's own reading. It alone is worth other starts: most other readings are wrong and end far off.
@@ -95,9 +100,7 @@ impl<'a> Trial<'a> {
         screened.extend(self.of_rows(&screened, as_read));
         best_first(&mut screened);
         let mut finalists = self.to_the_end(&screened);
-        let is_rough =
-            as_read.rms > ROUGH_SHARE * measured_size(&self.own) || self.priors.is_beyond(&as_read.values);
-        if is_rough {
+        if self.is_off(ROUGH_SHARE, as_read, &self.own) {
             let mut pairs = self.pairs(&screened);
             best_first(&mut pairs);
             let single = finalists.first().cloned();

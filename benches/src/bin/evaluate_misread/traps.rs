@@ -46,15 +46,14 @@ fn said_to_be(columns: Vec<&mut Column>, unit: &'static str) -> Names {
 }
 
 /// The same where their headings say the unit that they are not in.
-fn headed(columns: Vec<&mut Column>, unit: &'static str) -> Names {
-    let mut names = Vec::new();
-    for column in columns {
-        let own = column.unit.take().unwrap_or("rad");
-        scaled(column, unit_si(own) / unit_si(unit));
+fn headed(mut columns: Vec<&mut Column>, unit: &'static str) -> Names {
+    for column in &mut columns {
+        let own = column.unit.unwrap_or("rad");
         column.name += &format!(" [{own}]");
-        names.push(column.name.clone());
     }
-    vec![format!("{unit}: {}", names.join(" "))]
+    let names = written_in(columns.iter_mut().map(|column| &mut **column).collect(), unit);
+    columns.into_iter().for_each(|column| column.unit = None);
+    names
 }
 
 fn packed(columns: Vec<&mut Column>) -> Names {

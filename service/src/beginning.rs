@@ -1,6 +1,6 @@
 //! A study to begin with, whose columns are read as the data ask for.
 
-use calibration::misread::misread;
+use calibration::misread::judged;
 use init::{Draft, Look, Names, NotBegun};
 use study::Open;
 
@@ -23,7 +23,7 @@ pub struct Begun {
 pub fn begun(draft: &Draft, look: &Look, names: Names<'_>, open: &mut Open<'_>) -> Result<Begun, NotBegun> {
     let (mut study, mut remarks) = (init::study(draft, look, names), draft.remarks.clone());
     let held = init::hold(draft, &study, open)?;
-    if let Some(misread) = misread(&held.plan, &held.sample) {
+    if let Some(misread) = judged(&held.plan, &held.sample).misread {
         let (said, lines) = report::words::asked(&misread);
         study = init::otherwise(&study, &said, &lines);
         init::hold(draft, &study, open)?;

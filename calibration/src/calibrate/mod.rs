@@ -36,7 +36,7 @@ use model_core::{Chain, Mistakes};
 use crate::amend::{AmendError, amend, with_quantities_of};
 use crate::diagnose::shown::{DRAWN, Shown};
 use crate::diagnose::{Confirmed, Diagnosis, FrozenModel, Trace, Unsearched, diagnose, rounding, trace};
-use crate::misread::{Misread, implausible, misread};
+use crate::misread::{Judgement, Misread, implausible, judged as columns_judged};
 use crate::search::SearchError;
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
@@ -150,14 +150,26 @@ pub fn calibrate_telling(
     request: Request<'_>,
     tell: &(dyn Fn(Stage) + Sync),
 ) -> Result<Calibration, CalibrateError> {
-    let declared = of_request(request, tell)?;
+    let Judgement { misread, start } =
+        request.sample.map(|sample| columns_judged(request.plan, sample)).unwrap_or_default();
+    let started = start.map(|start| {
+        let mut plan = request.plan.clone();
+        plan.fit.start = start;
+        plan
+    });
+    let request = Request { plan: started.as_ref().unwrap_or(request.plan), ..request };
+    let declared = of_request(request, misread, tell)?;
     let Some(plan) = simpler::plan(request.plan, &declared.diagnosis) else { return Ok(declared) };
-    let simpler = of_request(Request { plan: &plan, ..request }, tell)?;
+    let simpler = of_request(Request { plan: &plan, ..request }, None, tell)?;
     Ok(simpler::told(declared, simpler))
 }
 
 /// The loop with the errors that a study asks for.
-fn of_request(request: Request<'_>, tell: &(dyn Fn(Stage) + Sync)) -> Result<Calibration, CalibrateError> {
+fn of_request(
+    request: Request<'_>,
+    misread: Option<Misread>,
+    tell: &(dyn Fn(Stage) + Sync),
+) -> Result<Calibration, CalibrateError> {
     let observables: Vec<_> =
         request.observations.poses.series.iter().map(|series| series.observable).collect();
     check_scale_of_ranges(&request.plan.chain, request.observations, &request.plan.fit)?;
@@ -165,7 +177,6 @@ fn of_request(request: Request<'_>, tell: &(dyn Fn(Stage) + Sync)) -> Result<Cal
     let (by_place, by_stretch) = (OnceCell::new(), OnceCell::new());
     let whole = Context { tell, ..Context::new(request, &observables, HELD)? };
 
-    let misread = request.sample.and_then(|sample| misread(request.plan, sample));
     let (whole, first) = places::grouped(whole, &by_place)?;
     let is_plausible = || {
         implausible(&request.plan.chain, request.observations, &first.fit, &request.plan.plausible).is_empty()

@@ -4,6 +4,7 @@
 //! Each hypothesis (`hypotheses`, one file a kind) reads some rows otherwise. All are compared by one likelihood of the numbers as the
 //! file has them (`score`), with a prior on the errors of the declaration (`prior`). One that wins by the margin of `policy` is told.
 
+mod frame;
 mod hypotheses;
 mod policy;
 mod prior;
@@ -54,21 +55,44 @@ pub struct Suspect {
     pub score: f64,
 }
 
-/// The misread columns of a study, judged on some of its rows; `None` where the study's own reading is not beaten.
+/// What the rows of a study say of how they are read.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Judgement {
+    /// The misread columns; none where the study's own reading is not beaten.
+    pub misread: Option<Misread>,
+    /// Errors from which the study's own reading fits clearly better than from where the study starts.
+    pub start: Option<Vec<f64>>,
+}
+
+/// How the columns of a study are read, judged on some of its rows.
 ///
 /// Rows that observe unknown objects are not judged here: where a fit of those is far off, `diagnose` tries readings of theirs.
 #[must_use]
-pub fn misread(plan: &Plan, sample: &Sample) -> Option<Misread> {
+pub fn judged(plan: &Plan, sample: &Sample) -> Judgement {
+    judgement(plan, sample).unwrap_or_default()
+}
+
+fn judgement(plan: &Plan, sample: &Sample) -> Option<Judgement> {
     let trial = Trial::new(plan, sample)?;
-    let as_read = trial.as_read()?;
+    let mut as_read = trial.as_read()?;
     let mut readings = trial.others(&as_read);
-    let best = &readings.first()?.score;
-    let margin = best.total - as_read.total;
-    let again = (margin >= MARGIN).then(|| trial.as_read_elsewhere(&best.values)).flatten();
-    let as_read =
-        again.into_iter().fold(as_read, |one, other| if other.total > one.total { other } else { one });
-    let margin = best.total - as_read.total;
+    let best = readings.first()?;
+    let mut start = None;
+    if best.score.total - as_read.total >= MARGIN {
+        let elsewhere = trial.as_read_elsewhere(best).filter(|other| other.total > as_read.total);
+        if let Some(other) = elsewhere {
+            start = (other.total - as_read.total >= MARGIN).then(|| other.values.clone());
+            as_read = other;
+        }
+    }
+    let margin = best.score.total - as_read.total;
     readings.retain(|tried| explains(&trial, tried, &as_read, &trial.own));
+    let misread = told(&trial, readings, &as_read, margin);
+    Some(Judgement { start: start.filter(|_| misread.is_none()), misread })
+}
+
+/// The readings that explain the data as well as the best of them; none where none does.
+fn told(trial: &Trial<'_>, mut readings: Vec<Tried>, as_read: &Score, margin: f64) -> Option<Misread> {
     let top = readings.first()?.score.total;
     readings.retain(|tried| top - tried.score.total <= ONE_OF);
     let after = readings.first()?.score.rms;
@@ -109,8 +133,11 @@ fn explains(trial: &Trial<'_>, tried: &Tried, as_read: &Score, own: &Observation
         }
     };
     let margin = if matches!(hypothesis.reading, Reading::TwoStates { .. }) { STATES_MARGIN } else { MARGIN };
-    // What needs too large an error or leaves too large a residual explains nothing, unless the study's own reading does so too.
-    let is_plausible = !trial.is_implausible(score, observations) || trial.is_implausible(as_read, own);
+    // What needs too large an error or leaves too large a residual explains nothing, unless the study's own reading does so too. A turn of
+    // everything takes something off any residual.
+    let may_be_rough =
+        !matches!(hypothesis.reading, Reading::Frame { .. }) && trial.is_implausible(as_read, own);
+    let is_plausible = may_be_rough || !trial.is_implausible(score, observations);
     score.total - as_read.total >= margin && is_gross && is_plausible
 }
 

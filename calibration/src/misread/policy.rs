@@ -28,6 +28,7 @@ pub(super) const COUNTS_PRICE: f64 = 2.0;
 /// Counts of an encoder span more degrees than that.
 pub(super) const COUNTS_DEGREES: f64 = 4.0 * 360.0;
 pub(super) const TURNED_PRICE: f64 = 1.0;
+pub(super) const FRAME_PRICE: f64 = 2.0;
 /// And that it holds of some rows alone.
 pub(super) const FROM_ROW_PRICE: f64 = 3.0;
 /// Rows are told to be of two kinds where four conditions hold: the score is better by this margin, the residual shrinks to this share, the
@@ -54,6 +55,9 @@ pub(super) const MOST_TILT_RAD: f64 = PI / 36.0;
 pub(super) const MOST_LENGTH_SHARE: f64 = 0.1;
 pub(super) const MOST_RESIDUAL_SHARE: f64 = 0.03;
 
+/// What an error beyond its limit costs, nats: nobody makes an instrument like that.
+pub(super) const BEYOND: f64 = 20.0;
+
 /// Hypotheses that are fitted to the end, hypotheses of some rows that are fitted at all, and the steps that all others are fitted by.
 /// They bound work.
 pub(super) const FITTED: usize = 9;
@@ -66,6 +70,7 @@ const TRIALS: &str =
     "402 clean and 190 misread simulated studies of eight instruments, thresholds moved once between halves";
 const PRICED: &str =
     "specification: prices of kinds of mistake, measured there on five to seven files a kind";
+const FRAMED: &str = "judgement: rarer than a wrong unit, as exchanged places on Earth and wrong clocks are";
 const ASKED: &str = "specification: beyond this a value is no small error";
 
 /// Every number that decides here.
@@ -201,6 +206,12 @@ pub const THRESHOLDS: &[Threshold] = &[
         "nats that a mistake of some rows alone is rarer",
         PRICED,
     ),
+    Threshold::new(
+        "misread.frame",
+        FRAME_PRICE,
+        "nats that a frame which is turned is rarer than a wrong unit",
+        FRAMED,
+    ),
     Threshold::new("prior.tilt_rad", TILT_RAD, "size of a tilt, scale of its prior", TRIALS),
     Threshold::new(
         "prior.length_share",
@@ -214,6 +225,7 @@ pub const THRESHOLDS: &[Threshold] = &[
         "size of an error of a tool over the reach, scale of its prior",
         TRIALS,
     ),
+    Threshold::new("prior.beyond", BEYOND, "nats that an error beyond its limit costs a reading", FRAMED),
     Threshold::new("plausible.tilt_rad", MOST_TILT_RAD, "largest tilt that is a finding", ASKED),
     Threshold::new(
         "plausible.length_share",

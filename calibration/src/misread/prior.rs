@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::estimated;
 use super::policy::{
-    LENGTH_SHARE, MOST_LENGTH_SHARE, MOST_RESIDUAL_SHARE, MOST_TILT_RAD, TILT_RAD, TOOL_SHARE,
+    BEYOND, LENGTH_SHARE, MOST_LENGTH_SHARE, MOST_RESIDUAL_SHARE, MOST_TILT_RAD, TILT_RAD, TOOL_SHARE,
 };
 use fit::FitResult;
 use observe::{Observations, SiUnit};
@@ -53,10 +53,12 @@ impl Priors {
         Self { scales: estimated(plan).filter_map(scale).collect() }
     }
 
-    /// What errors of this size cost, nats: a t distribution with three degrees of freedom, against its value at zero.
+    /// What errors of this size cost, nats: a t distribution with three degrees of freedom, against its value at zero; and as much again as
+    /// rules a reading out where one is beyond its limit.
     pub fn penalty(&self, values: &[f64]) -> f64 {
         let cost = |own: &Scaled| 2.0 * ((values[own.error.index()] / own.scale).powi(2) / 3.0).ln_1p();
-        self.scales.iter().map(cost).sum()
+        let beyond = if self.is_beyond(values) { BEYOND } else { 0.0 };
+        self.scales.iter().map(cost).sum::<f64>() + beyond
     }
 
     /// Whether an error is too large to be one.

@@ -33,6 +33,16 @@ pub(super) struct Score {
     pub rank: usize,
 }
 
+impl Score {
+    /// The same by the file's own numbers, where a fit was of observations that are turned.
+    pub fn of_numbers(&mut self, own: &Observations, turned: &Observations, columns: &[SampledColumn]) {
+        let numbers = own.poses.components() as f64;
+        let more = jacobian(own, columns, None) - jacobian(turned, columns, None);
+        self.total += (numbers - self.rank as f64).max(1.0) / numbers * more;
+        self.scale *= (-more / numbers).exp();
+    }
+}
+
 /// The score of the data as they are read, fitted; `None` where there is no fit.
 pub(super) fn score(
     plan: &Plan,

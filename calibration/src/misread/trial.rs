@@ -4,14 +4,15 @@ use std::f64::consts::FRAC_PI_2;
 
 use fit::noise::{Layout, NoiseOptions, resolution};
 use fit::{FitOptions, Model, residuals};
+use nalgebra::UnitQuaternion;
 use observe::Observations;
 use study::{Changed, Plan, Sample, SampledColumn};
 
-use super::hypotheses::{self, Hypothesis, QUARTERS, both, from_row};
+use super::hypotheses::{self, Hypothesis, QUARTERS, Reading, both, from_row};
 use super::policy::{FITTED, MOST_RESIDUAL_SHARE, PAIRED, PARTS, ROUGH_SHARE, SCREENED_STEPS};
 use super::prior::{Priors, indexed, measured_size};
 use super::score::{Score, jacobian, score};
-use super::{explains, states};
+use super::{explains, frame, states};
 
 /// A reading of the data, and what it comes to.
 #[derive(Clone)]
@@ -76,13 +77,19 @@ impl<'a> Trial<'a> {
         self.score_by(&self.own, &options, None)
     }
 
-    /// The same from another reading's errors, and from homes a quarter or half turn away: a wrong minimum is no misread column.
-    pub fn as_read_elsewhere(&self, errors: &[f64]) -> Option<Score> {
-        let mut starts = vec![errors.to_vec()];
+    /// The same from another reading's errors, and from homes elsewhere: a quarter or half turn away, or by what a frame is turned. A wrong
+    /// minimum is no misread column.
+    pub fn as_read_elsewhere(&self, other: &Tried) -> Option<Score> {
+        let mut starts = vec![other.score.values.clone()];
+        let quarters = QUARTERS.map(|quarters| FRAC_PI_2 * f64::from(quarters));
+        let by_rad = match other.hypothesis.reading {
+            Reading::Frame { by_deg, .. } => vec![by_deg.to_radians(), -by_deg.to_radians()],
+            _ => Vec::new(),
+        };
         for (_, index) in indexed(self.plan, &self.own) {
-            for quarters in QUARTERS {
+            for by_rad in quarters.iter().chain(&by_rad) {
                 let mut start = self.plan.fit.start.clone();
-                start[index.index()] += FRAC_PI_2 * f64::from(quarters);
+                start[index.index()] += by_rad;
                 starts.push(start);
             }
         }
@@ -111,6 +118,7 @@ impl<'a> Trial<'a> {
             }));
         }
         finalists.extend(self.two_states(as_read));
+        finalists.extend(self.in_another_frame());
         best_first(&mut finalists);
         finalists
     }
@@ -165,6 +173,25 @@ impl<'a> Trial<'a> {
         };
         let (hypothesis, score) = rows.parted(as_read)?;
         Some(Tried { hypothesis, score, observations: self.own.clone() })
+    }
+
+    /// The measured directions turned as a whole: first by what the study starts from, then by the errors that are found so.
+    fn in_another_frame(&self) -> Option<Tried> {
+        let start = self.plan.fit.start.as_slice();
+        let first = frame::turn(self.plan, &self.own, start)?;
+        let steps = self.plan.fit.max_iterations;
+        let of = |turn: &UnitQuaternion<f64>, start: &[f64]| {
+            let observations = frame::turned(&self.own, turn);
+            let hypothesis = frame::hypothesis(&observations, turn);
+            let mut score = self.score(&observations, start, steps, Some(&hypothesis))?;
+            // Turned or not, the numbers of the file are the same ones.
+            score.of_numbers(&self.own, &observations, &self.columns);
+            Some(Tried { hypothesis, score, observations })
+        };
+        let first = of(&first, start)?;
+        let again = frame::turn(self.plan, &self.own, &first.score.values);
+        let again = again.and_then(|turn| of(&turn, &first.score.values));
+        again.filter(|again| again.score.total > first.score.total).or(Some(first))
     }
 
     /// A reading after a few steps, from the errors that the study starts from or from those found so far.

@@ -9,6 +9,12 @@ use observe::SiUnit;
 /// Readings that are shown where several explain the data alike.
 const SHOWN: usize = 3;
 
+/// How far the sky turns in an hour.
+const DEGREES_AN_HOUR: f64 = 15.0;
+
+/// A turn by so much less or more than whole hours may be a clock's: what the errors of the instrument add.
+const CLOCK_DEG: f64 = 0.5;
+
 /// Rows that are named.
 const ROWS_SHOWN: usize = 8;
 
@@ -77,6 +83,12 @@ fn step(suspect: &Suspect) -> Step {
         text.push_str(
             "Look for two targets, two prism constants or a play. Add a column with the kind of each row, and calibrate each kind alone. ",
         );
+    } else if matches!(suspect.reading, Reading::Frame { .. }) {
+        text.push_str(
+            "Look at how the measured directions were computed. A wrong clock, time zone or longitude turns them about the celestial pole, a \
+             wrong latitude about the line from east to west. If the instrument stands turned like this, write the turn into the declaration \
+             as a position of its first body. ",
+        );
     } else if suspect.lines.is_empty() && suspect.headings.is_empty() {
         text.push_str("Correct these rows in the file. ");
     }
@@ -144,6 +156,7 @@ fn title(reading: &Reading) -> &'static str {
         Reading::Inverse { .. } => "Turn the rotation round",
         Reading::Both { .. } => "Correct both",
         Reading::TwoStates { .. } => "Separate the two kinds of rows",
+        Reading::Frame { .. } => "Find the other frame",
         Reading::Shifted { .. } => "Shift the rows",
     }
 }
@@ -193,6 +206,13 @@ fn sentence(reading: &Reading) -> String {
                 some(rows)
             )
         }
+        Reading::Frame { by_deg, axis: [x, y, z] } => {
+            format!(
+                "The measured directions stand in another frame. They fit once they are turned by {by_deg:.2}° about the axis \
+                 ({x:.3}, {y:.3}, {z:.3}).{}",
+                hours(*by_deg)
+            )
+        }
         Reading::Exchanged { columns: [one, other] } => {
             format!("The columns `{one}` and `{other}` are exchanged.")
         }
@@ -204,6 +224,14 @@ fn sentence(reading: &Reading) -> String {
             format!("{what} {} {are} {row} compared with the observations.", listed(columns))
         }
     }
+}
+
+/// What the sky turns by as much in whole hours.
+fn hours(by_deg: f64) -> String {
+    let hours = (by_deg / DEGREES_AN_HOUR).round();
+    let is_whole = hours > 0.0 && (by_deg - DEGREES_AN_HOUR * hours).abs() < CLOCK_DEG;
+    let plural = if hours > 1.0 { "s" } else { "" };
+    if is_whole { format!(" The sky turns by as much in {hours:.0} hour{plural}.") } else { String::new() }
 }
 
 /// Some of the rows by their numbers.

@@ -1,6 +1,6 @@
 //! What the program says of a simulated file, against what was done to it.
 
-use calibration::misread::{Reading, implausible, misread};
+use calibration::misread::{Judgement, Reading, implausible, judged};
 use fit::{FitOptions, FitResult, fit};
 use model_core::Chain;
 use study::{Loaded, Plan, Study};
@@ -32,6 +32,20 @@ pub enum Answer {
     Hidden,
 }
 
+impl Answer {
+    /// Every answer, in the order of the page.
+    pub const ALL: [Self; 8] = [
+        Self::First,
+        Self::Among,
+        Self::Part,
+        Self::Other,
+        Self::Refused,
+        Self::Withheld,
+        Self::Silent,
+        Self::Hidden,
+    ];
+}
+
 /// How much likelier the data must be without the mistake before silence counts: a ratio of 20.
 const SHOWN_NATS: f64 = 3.0;
 
@@ -49,16 +63,19 @@ fn measured(data: &Data) -> Result<Measured, Failure> {
     Ok(Measured { plan, loaded })
 }
 
-fn fitted(measured: &Measured) -> Result<FitResult, Failure> {
-    let options = FitOptions { noise: measured.plan.fit.noise.by_residuals(), ..measured.plan.fit.clone() };
+/// The study's own reading, fitted from where `calibrate` starts.
+fn fitted(measured: &Measured, start: Option<Vec<f64>>) -> Result<FitResult, Failure> {
+    let own = measured.plan.fit.clone();
+    let (start, noise) = (start.unwrap_or_else(|| own.start.clone()), own.noise.by_residuals());
+    let options = FitOptions { start, noise, ..own };
     Ok(fit(&measured.plan.chain, &measured.loaded.observations, &options)?)
 }
 
 /// What is said of a file in which nothing is wrong: the readings that are named; withheld or not.
 pub fn of_clean(data: &Data) -> Result<(Names, bool), Failure> {
     let own = measured(data)?;
-    let named = misread(&own.plan, &own.loaded.sample);
-    let withheld = named.is_none() && is_withheld(&own, &fitted(&own)?);
+    let Judgement { misread: named, start } = judged(&own.plan, &own.loaded.sample);
+    let withheld = named.is_none() && is_withheld(&own, &fitted(&own, start)?);
     Ok((
         named.map(|told| told.readings.iter().map(|own| words(&own.reading)).collect()).unwrap_or_default(),
         withheld,
@@ -71,7 +88,7 @@ pub fn of_spoiled(data: &Data, clean: &Data, right: &Names) -> Result<(Answer, N
         Err(failure) if failure.is::<DataError>() => return Ok((Answer::Refused, Vec::new())),
         other => other?,
     };
-    let named = misread(&own.plan, &own.loaded.sample);
+    let Judgement { misread: named, start } = judged(&own.plan, &own.loaded.sample);
     let said: Names =
         named.iter().flat_map(|told| &told.readings).map(|suspect| words(&suspect.reading)).collect();
     let answer = match said.iter().position(|name| right.contains(name)) {
@@ -80,12 +97,12 @@ pub fn of_spoiled(data: &Data, clean: &Data, right: &Names) -> Result<(Answer, N
         None if said.iter().any(|name| is_part(name, right)) => Answer::Part,
         None if !said.is_empty() => Answer::Other,
         None => {
-            let as_read = fitted(&own)?;
+            let as_read = fitted(&own, start)?;
             if is_withheld(&own, &as_read) {
                 Answer::Withheld
             } else {
                 let other = measured(clean)?;
-                let without = fitted(&other)?;
+                let without = fitted(&other, None)?;
                 let numbers = without.residuals.raw.len() as f64;
                 let unit = rms(&as_read) / rms(&without) / scale_of(data, clean);
                 if numbers * unit.ln() > SHOWN_NATS { Answer::Silent } else { Answer::Hidden }
@@ -137,6 +154,7 @@ fn words(reading: &Reading) -> String {
         Reading::Exchanged { columns } => format!("exchanged: {}", columns.join(" ")),
         Reading::Order { order, .. } => format!("order: {order}"),
         Reading::Inverse { .. } => "inverse".to_owned(),
+        Reading::Frame { .. } => "another frame".to_owned(),
         Reading::Both { readings: [one, other] } => format!("{} and {}", words(one), words(other)),
         Reading::TwoStates { errors, .. } => format!("two kinds: {}", errors.join(" ")),
         Reading::Shifted { columns, by } => format!("rows {by}: {}", columns.join(" ")),

@@ -1,13 +1,15 @@
 //! How often misread columns are told, and how often something is told of files in which nothing is wrong.
 //!
-//! `cargo run --release -p trueaxis-benches --bin evaluate_misread -- [--runs N] [--clean N] [--seed S] [--page FILE] [TRAP…]`: N runs
+//! `cargo run --release -p trueaxis-benches --bin evaluate_misread -- [--runs N] [--clean N] [--seed S] [--page FILE] [--kept FILE] [TRAP…]`: N runs
 //! of each trap, instrument and number of rows (default 4), of clean files (default 3000); the seed of the first run (default 1; seeds
-//! below 1,000,000 were used while the readings were made); FILE the page of the book; traps by a part of their names.
+//! below 1,000,000 were used while the readings were made); FILE the page of the book, and where answers are kept, so that a run that was
+//! stopped goes on; traps by a part of their names.
 #![allow(clippy::print_stdout)]
 
 mod data;
 mod instruments;
 mod judge;
+mod kept;
 mod traps;
 
 use std::fmt::Write as _;
@@ -18,6 +20,7 @@ use testkit::Random;
 use data::{Data, HABITS, Habit};
 use instruments::INSTRUMENTS;
 use judge::{Answer, Failure, of_clean, of_spoiled};
+use kept::Kept;
 use traps::TRAPS;
 
 const ROWS: [usize; 3] = [12, 50, 300];
@@ -25,16 +28,20 @@ const ROWS: [usize; 3] = [12, 50, 300];
 /// Rows of clean files: few as well.
 const CLEAN_ROWS: [usize; 4] = [8, 12, 50, 300];
 
+/// The answer of a clean file whose correction is withheld.
+const WITHHELD: &str = "withheld";
+
 struct Asked {
     runs: usize,
     clean: usize,
     seed: u64,
     page: Option<String>,
+    kept: Option<String>,
     traps: Vec<String>,
 }
 
 fn main() -> Result<(), Failure> {
-    let mut asked = Asked { runs: 4, clean: 3000, seed: 1, page: None, traps: Vec::new() };
+    let mut asked = Asked { runs: 4, clean: 3000, seed: 1, page: None, kept: None, traps: Vec::new() };
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
         let mut value = || arguments.next().ok_or(format!("{argument} needs a value"));
@@ -42,12 +49,14 @@ fn main() -> Result<(), Failure> {
             "--runs" => asked.runs = value()?.parse()?,
             "--clean" => asked.clean = value()?.parse()?,
             "--seed" => asked.seed = value()?.parse()?,
+            "--kept" => asked.kept = Some(value()?),
             "--page" => asked.page = Some(value()?),
             _ => asked.traps.push(argument),
         }
     }
-    let mut text = spoiled(&asked)?;
-    text += &clean(&asked)?;
+    let kept = Kept::read(asked.kept.as_deref())?;
+    let mut text = spoiled(&asked, &kept)?;
+    text += &clean(&asked, &kept)?;
     if let Some(file) = &asked.page {
         std::fs::write(file, page(&asked, &text))?;
     }
@@ -65,7 +74,7 @@ fn numbers(seed: u64, case: usize, run: usize) -> Random {
     random
 }
 
-fn spoiled(asked: &Asked) -> Result<String, Failure> {
+fn spoiled(asked: &Asked, kept: &Kept) -> Result<String, Failure> {
     let mut text =
         "| mistake | instrument | rows | runs | named first | among those named | one of two named | another named | refused | withheld | silent | cannot be seen |\n\
          |---|---|---|---|---|---|---|---|---|---|---|---|\n"
@@ -77,35 +86,23 @@ fn spoiled(asked: &Asked) -> Result<String, Failure> {
         for instrument in INSTRUMENTS.iter().filter(|own| is_asked && (trap.on)(own)) {
             for rows in ROWS {
                 let run = |run: usize| {
-                    let random = &mut numbers(asked.seed, case * 1000 + rows, run);
-                    let clean = Data::simulated(instrument, rows, HABITS[0].0, random);
-                    let mut data = clean.clone();
-                    let right = (trap.spoil)(&mut data, random);
-                    of_spoiled(&data, &clean, &right).map(|(answer, said)| (answer, said, right))
+                    let name = format!("{}/{}/{}/{rows}/{run}", asked.seed, trap.name, instrument.name);
+                    kept.or_new(&name, || {
+                        let random = &mut numbers(asked.seed, case * 1000 + rows, run);
+                        let clean = Data::simulated(instrument, rows, HABITS[0].0, random);
+                        let mut data = clean.clone();
+                        let right = (trap.spoil)(&mut data, random);
+                        let (answer, said) = of_spoiled(&data, &clean, &right)?;
+                        if matches!(answer, Answer::Other | Answer::Silent) {
+                            println!("  {answer:?}: {name}: {said:?} for {:?}", right.first());
+                        }
+                        Ok(format!("{answer:?}"))
+                    })
                 };
                 let answers: Vec<_> =
                     (0..asked.runs).into_par_iter().map(run).collect::<Result<_, Failure>>()?;
-                let kinds = [
-                    Answer::First,
-                    Answer::Among,
-                    Answer::Part,
-                    Answer::Other,
-                    Answer::Refused,
-                    Answer::Withheld,
-                    Answer::Silent,
-                    Answer::Hidden,
-                ];
-                let counts = kinds.map(|kind| answers.iter().filter(|(answer, ..)| *answer == kind).count());
-                for (answer, said, right) in &answers {
-                    if matches!(answer, Answer::Other | Answer::Silent) {
-                        println!(
-                            "  {answer:?}: {} · {} · {rows}: {said:?} for {:?}",
-                            trap.name,
-                            instrument.name,
-                            right.first()
-                        );
-                    }
-                }
+                let of = |kind: &Answer| answers.iter().filter(|own| **own == format!("{kind:?}")).count();
+                let counts = Answer::ALL.each_ref().map(of);
                 sums.iter_mut().zip(counts).for_each(|(sum, count)| *sum += count);
                 let cells = counts.map(|count| count.to_string()).join(" | ");
                 let line =
@@ -121,7 +118,7 @@ fn spoiled(asked: &Asked) -> Result<String, Failure> {
     Ok(text)
 }
 
-fn clean(asked: &Asked) -> Result<String, Failure> {
+fn clean(asked: &Asked, kept: &Kept) -> Result<String, Failure> {
     let mut text =
         "\n| nothing is wrong | runs | something named | withheld |\n|---|---|---|---|\n".to_owned();
     for (case, (habit, words)) in HABITS.iter().enumerate() {
@@ -133,19 +130,21 @@ fn clean(asked: &Asked) -> Result<String, Failure> {
                 INSTRUMENTS.iter().filter(|own| *habit != Habit::Home || own.indexed).collect();
             let instrument = may_be[run % may_be.len()];
             let rows = CLEAN_ROWS[run / may_be.len() % CLEAN_ROWS.len()];
-            let data = Data::simulated(instrument, rows, *habit, random);
-            of_clean(&data).map(|(mut named, withheld)| {
+            let name = format!("{}/{words}/{}/{rows}/{run}", asked.seed, instrument.name);
+            kept.or_new(&name, || {
+                let (mut named, withheld) = of_clean(&Data::simulated(instrument, rows, *habit, random))?;
                 // A play that rests on either side makes two kinds of rows in truth.
                 named.retain(|name| *habit != Habit::Backlash || !name.starts_with("two kinds"));
-                (named, withheld, instrument.name, rows)
+                if !named.is_empty() {
+                    println!("  named: {name}: {named:?}");
+                }
+                let answer = if named.is_empty() { "nothing" } else { "named" };
+                Ok(if withheld { WITHHELD } else { answer }.to_owned())
             })
         };
         let answers: Vec<_> = (0..runs).into_par_iter().map(run).collect::<Result<_, Failure>>()?;
-        for (named, _, instrument, rows) in answers.iter().filter(|(named, ..)| !named.is_empty()) {
-            println!("  named: {words} · {instrument} · {rows}: {named:?}");
-        }
-        let named = answers.iter().filter(|(named, ..)| !named.is_empty()).count();
-        let withheld = answers.iter().filter(|(_, withheld, ..)| *withheld).count();
+        let of = |kind: &str| answers.iter().filter(|own| *own == kind).count();
+        let (named, withheld) = (of("named"), of(WITHHELD));
         let line = format!("| {words} | {runs} | {named} | {withheld} |");
         println!("{line}");
         let _ = writeln!(text, "{line}");

@@ -100,6 +100,50 @@ fn shifted(columns: &mut [Column], by: usize) -> Names {
     )]
 }
 
+/// What was measured, as if the sky were turned about an axis.
+fn sky_turned(data: &mut Data, axis: [f64; 3], by_rad: f64) -> Names {
+    let is_spherical = data.instrument.observed == Observed::Spherical;
+    for row in 0..data.rows {
+        let own: Vec<f64> = data.observed.iter().map(|column| column.numbers[row]).collect();
+        let vector = match own[..] {
+            [azimuth, elevation] => {
+                let (azimuth, elevation) = (azimuth.to_radians(), elevation.to_radians());
+                [elevation.cos() * azimuth.sin(), elevation.cos() * azimuth.cos(), elevation.sin()]
+            }
+            [x, y, z] => [x, y, z],
+            _ => return Vec::new(),
+        };
+        let along: f64 = vector.iter().zip(axis).map(|(own, axis)| own * axis).sum();
+        let [x, y, z] = vector;
+        let [u, v, w] = axis;
+        let beside = [v * z - w * y, w * x - u * z, u * y - v * x];
+        let turned: [f64; 3] = std::array::from_fn(|at| {
+            vector[at] * by_rad.cos() + beside[at] * by_rad.sin() + axis[at] * along * (1.0 - by_rad.cos())
+        });
+        let numbers = if is_spherical {
+            vec![turned[0].atan2(turned[1]).to_degrees(), turned[2].asin().to_degrees()]
+        } else {
+            turned.to_vec()
+        };
+        data.observed.iter_mut().zip(numbers).for_each(|(column, number)| column.numbers[row] = number);
+    }
+    vec!["another frame".to_owned()]
+}
+
+fn directions(instrument: &Instrument) -> bool {
+    matches!(instrument.observed, Observed::Spherical | Observed::Direction)
+}
+
+fn alt_azimuth(instrument: &Instrument) -> bool {
+    instrument.name == "alt-azimuth"
+}
+
+/// The celestial pole at a latitude of 48 degrees: east, north, up.
+fn pole() -> [f64; 3] {
+    let latitude = 48.0_f64.to_radians();
+    [0.0, latitude.cos(), latitude.sin()]
+}
+
 fn any(_: &Instrument) -> bool {
     true
 }
@@ -316,6 +360,28 @@ pub const TRAPS: &[Trap] = &[
                 }
             }
             vec!["two kinds: zero".to_owned()]
+        },
+    },
+    Trap {
+        name: "a clock one to six hours off",
+        on: alt_azimuth,
+        spoil: |data, random| {
+            let hours = (1 + random.below(6)) as f64 * [1.0, -1.0][random.below(2)];
+            sky_turned(data, pole(), (15.0 * hours).to_radians())
+        },
+    },
+    Trap {
+        name: "the latitude of the other hemisphere",
+        on: alt_azimuth,
+        spoil: |data, _| sky_turned(data, [1.0, 0.0, 0.0], 96.0_f64.to_radians()),
+    },
+    Trap {
+        name: "directions in a frame that is turned anyhow",
+        on: directions,
+        spoil: |data, random| {
+            let axis = [random.normal(), random.normal(), random.normal()];
+            let size = axis.iter().map(|value| value * value).sum::<f64>().sqrt();
+            sky_turned(data, axis.map(|value| value / size), 0.3 + 2.0 * random.even())
         },
     },
     Trap { name: "joints one row off", on: any, spoil: |data, _| shifted(&mut data.joints, 1) },

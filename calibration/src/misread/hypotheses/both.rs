@@ -16,7 +16,10 @@ pub(in crate::misread) fn stage(reading: &Reading) -> Option<u8> {
         | Reading::FromZenith { .. }
         | Reading::Turned { .. }
         | Reading::Inverse { .. } => Some(3),
-        Reading::FromRow { .. } | Reading::Both { .. } | Reading::TwoStates { .. } => None,
+        Reading::FromRow { .. }
+        | Reading::Both { .. }
+        | Reading::TwoStates { .. }
+        | Reading::Frame { .. } => None,
     }
 }
 

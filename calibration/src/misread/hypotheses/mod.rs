@@ -139,6 +139,13 @@ pub enum Reading {
         /// The columns of the file.
         columns: Vec<String>,
     },
+    /// What was measured stands in another frame.
+    Frame {
+        /// By how much it is to be turned, deg.
+        by_deg: f64,
+        /// About which axis, a unit vector.
+        axis: [f64; 3],
+    },
     /// Two mistakes at once.
     Both {
         /// What they are.

@@ -133,10 +133,11 @@ fn explains(trial: &Trial<'_>, tried: &Tried, as_read: &Score, own: &Observation
         }
     };
     let margin = if matches!(hypothesis.reading, Reading::TwoStates { .. }) { STATES_MARGIN } else { MARGIN };
-    // What needs too large an error or leaves too large a residual explains nothing, unless the study's own reading does so too. A turn of
-    // everything takes something off any residual.
-    let may_be_rough =
-        !matches!(hypothesis.reading, Reading::Frame { .. }) && trial.is_implausible(as_read, own);
+    // What needs too large an error or leaves too large a residual explains nothing, unless the study's own reading does so too and the
+    // residual is halved as it stands, in one unit. A turn of everything takes something off any residual.
+    let may_be_rough = !matches!(hypothesis.reading, Reading::Frame { .. })
+        && trial.is_implausible(as_read, own)
+        && score.rms <= RATIO * as_read.rms;
     let is_plausible = may_be_rough || !trial.is_implausible(score, observations);
     score.total - as_read.total >= margin && is_gross && is_plausible
 }

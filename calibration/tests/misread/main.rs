@@ -6,6 +6,8 @@
     reason = "a test may say what it measured, and fail loudly"
 )]
 
+mod frames;
+
 use std::f64::consts::PI;
 
 use calibration::calibrate::Calibration;

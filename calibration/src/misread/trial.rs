@@ -107,19 +107,21 @@ impl<'a> Trial<'a> {
         screened.extend(self.of_rows(&screened, as_read));
         best_first(&mut screened);
         let mut finalists = self.to_the_end(&screened);
-        if self.is_off(ROUGH_SHARE, as_read, &self.own) {
-            let mut pairs = self.pairs(&screened);
-            best_first(&mut pairs);
-            let single = finalists.first().cloned();
-            let pairs = self.to_the_end(&pairs).into_iter();
-            // A second mistake explains what the first leaves.
-            finalists.extend(pairs.filter(|pair| {
-                single.as_ref().is_none_or(|single| explains(self, pair, &single.score, &single.observations))
-            }));
-        }
         finalists.extend(self.two_states(as_read));
         finalists.extend(self.in_another_frame());
         best_first(&mut finalists);
+        // A second mistake explains what the first leaves.
+        let single = finalists.first().cloned();
+        let is_rough = |tried: &Tried| self.is_off(ROUGH_SHARE, &tried.score, &tried.observations);
+        if self.is_off(ROUGH_SHARE, as_read, &self.own) && single.as_ref().is_none_or(is_rough) {
+            let mut pairs = self.pairs(&screened);
+            best_first(&mut pairs);
+            let pairs = self.to_the_end(&pairs).into_iter();
+            finalists.extend(pairs.filter(|pair| {
+                single.as_ref().is_none_or(|single| explains(self, pair, &single.score, &single.observations))
+            }));
+            best_first(&mut finalists);
+        }
         finalists
     }
 

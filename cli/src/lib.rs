@@ -30,6 +30,7 @@ mod table_files;
 mod terminal;
 mod told;
 mod waiting;
+mod whole;
 
 use std::process::ExitCode;
 

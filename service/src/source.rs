@@ -66,7 +66,10 @@ impl Source {
                 self.path.display(),
                 self.beside(Path::new(&named)).display()
             )),
-            None => self.is_table().unwrap_or_else(|| self.mistakes(&mistakes)),
+            None => {
+                let other = self.is_table().or_else(|| self.is_json());
+                other.unwrap_or_else(|| self.mistakes(&mistakes))
+            }
         })?;
         for caution in model_core::caution::cautions(&chain) {
             warn(format!("{}: {caution}", self.path.display()));
@@ -90,6 +93,12 @@ impl Source {
     /// # Errors
     /// Every mistake of the study, each with its place.
     pub fn study(&self) -> Result<Study, Refusal> {
+        if toml::from_str(&self.text).is_ok_and(|table: toml::Table| table.is_empty()) {
+            return Err(Refusal::Input(format!(
+                "`{}` is empty: `trueaxis init TABLE.csv` writes a declaration and a study for a table of data",
+                self.path.display()
+            )));
+        }
         Study::from_text(&self.text)
             .map_err(|mistakes| self.is_another().unwrap_or_else(|| self.mistakes(&mistakes)))
     }
@@ -132,8 +141,20 @@ impl Source {
         above.skip(1).find(is_row)?;
         let file = self.path.display();
         Some(Refusal::Input(format!(
-            "`{file}` is a table of data: begin with `trueaxis init {file}`, which writes a declaration and a study for it"
+            "`{file}` is a table of data: begin with `trueaxis init {}`, which writes a declaration and a study for it",
+            report::shell_word(&file.to_string())
         )))
+    }
+
+    /// What to say where a report's data were given for a declaration.
+    fn is_json(&self) -> Option<Refusal> {
+        let file = self.path.display();
+        self.text.trim_start().starts_with('{').then(|| {
+            Refusal::Input(format!(
+                "`{file}` is JSON, as reports are; needed here is a declaration or an instrument: give `instrument.toml`, which \
+                 `calibrate` writes beside its report"
+            ))
+        })
     }
 
     /// What to say where a declaration was given for a file that names one.

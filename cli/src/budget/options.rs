@@ -8,20 +8,20 @@ use service::tolerance::{Distribution, Shape, Tolerance, Written};
 use tables::units::Amount;
 
 use crate::failure::Failure;
-use crate::source;
+use crate::{source, whole};
 
 /// What a designer asks.
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "For a designer")]
 pub struct DesignerArguments {
     /// Draw all errors at once, so many times: percentiles, and the yield of what is wanted
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
+    #[arg(long, value_name = "N", value_parser = whole::number(1..=100_000_000), allow_negative_numbers = true)]
     pub draws: Option<u32>,
     /// Seed of the draws
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = whole::seed, allow_negative_numbers = true)]
     pub seed: u64,
     /// Poses that tolerances are summed over
-    #[arg(long, value_name = "N", default_value_t = 721, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = 721, value_parser = whole::number(1..=100_000), allow_negative_numbers = true)]
     pub poses: u32,
     /// How errors are spread over their sizes: uniform (the default), "normal 2" (the size is two standard deviations),
     /// "table FILE.csv" (rows of a value from -1 to 1, in units of the size, and how often it comes); for some errors only:

@@ -12,7 +12,7 @@ use crate::expected::{self, Work};
 use crate::failure::Failure;
 use crate::sizes::SizesArgument;
 use crate::source::Declared;
-use crate::terminal;
+use crate::{terminal, whole};
 
 /// Bound what the first-order form leaves out.
 ///
@@ -35,7 +35,7 @@ pub struct Arguments {
     #[arg(long, value_name = "joint=lo..hi")]
     range: Vec<RangeArgument>,
     /// Seed of the search for a large difference
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = whole::seed, allow_negative_numbers = true)]
     seed: u64,
     /// How to print
     #[arg(long, value_enum, default_value_t = TextOrJson::Text)]

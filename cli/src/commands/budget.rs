@@ -22,7 +22,7 @@ use crate::expected::{self, Work};
 use crate::failure::Failure;
 use crate::sizes::SizesArgument;
 use crate::source::Declared;
-use crate::{output, terminal};
+use crate::{output, terminal, whole};
 use claims::file::Checked;
 
 /// Measure what each error alone does, what all do together, and what tolerances come to.
@@ -53,7 +53,7 @@ pub struct Arguments {
     #[arg(long, value_name = "joint=lo..hi")]
     range: Vec<RangeArgument>,
     /// Curves for each error along a path, at sizes in equal steps up to its own
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=20))]
+    #[arg(long, default_value_t = 1, value_parser = whole::number(1..=20), allow_negative_numbers = true)]
     steps: u32,
     /// Folder for budget.html, budget.csv and, along a path, <observable>.csv and <observable>.svg with the influences against t
     #[arg(long, value_name = "DIR")]

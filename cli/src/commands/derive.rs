@@ -17,7 +17,7 @@ use super::Answer;
 use crate::certificates::CertificateArguments;
 use crate::expected::{self, Work};
 use crate::failure::Failure;
-use crate::{source, terminal};
+use crate::{source, terminal, whole};
 
 /// Derive the closed form of the error of each observable.
 ///
@@ -36,7 +36,7 @@ pub struct Arguments {
     #[arg(long)]
     observable: Vec<String>,
     /// Keep products of up to this many errors
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=3))]
+    #[arg(long, default_value_t = 1, value_parser = whole::number(1..=3), allow_negative_numbers = true)]
     order: u32,
     /// A table: what each error adds, in named common parts (short sines and cosines, rotations, lever arms)
     #[arg(long, conflicts_with_all = ["order", "steps"])]

@@ -252,11 +252,7 @@ fn look(data: &Path, site: Option<Site>) -> Result<Look, Failure> {
 }
 
 fn open(data: &Path) -> Result<Input<'static>, DataError> {
-    let unreadable = |error: &io::Error| DataError::Unreadable {
-        file: data.display().to_string(),
-        why: source::not_readable(data, error).to_string(),
-    };
-    table_files::open(data).map_err(|error| unreadable(&error))
+    table_files::open_named(data, None)
 }
 
 /// A path as a study says it.

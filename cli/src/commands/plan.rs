@@ -17,7 +17,7 @@ use super::{Answer, TextOrJson};
 use crate::budget::positive;
 use crate::failure::Failure;
 use crate::source::{self, Declared};
-use crate::{output, terminal};
+use crate::{output, terminal, whole};
 
 /// Poses at most that may be asked for.
 const MOST_POSES: u32 = 1000;
@@ -55,7 +55,7 @@ pub struct Arguments {
     #[arg(long = "where", value_name = "EXPRESSION")]
     constraints: Vec<String>,
     /// Exactly so many poses; default: as few as do, up to 400
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_POSES)))]
+    #[arg(long, value_name = "N", value_parser = whole::number(1..=MOST_POSES), allow_negative_numbers = true)]
     poses: Option<u32>,
     /// Largest sizes of the errors, as what is known of them before; an error without one is no unknown. Default: nothing is known
     #[arg(long, value_name = "BOX.toml")]

@@ -16,7 +16,7 @@ use tables::units::{Amount, Plausible};
 
 use super::Answer;
 use crate::failure::Failure;
-use crate::{output, source, table_files, terminal};
+use crate::{output, source, table_files, terminal, whole};
 use model_core::names::listed;
 
 /// Simulate measured data.
@@ -36,13 +36,13 @@ pub struct Arguments {
     #[arg(long, value_name = "E.toml")]
     errors: PathBuf,
     /// How many poses
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole::number(1..=u32::MAX), allow_negative_numbers = true)]
     poses: u32,
     /// Standard deviation of the noise, "2 arcsec" for directions, "0.1 mm" for points (give both for both)
     #[arg(long, value_name = "SIGMA", required = true, allow_hyphen_values = true)]
     noise: Vec<String>,
     /// Seed of the random numbers: the same seed gives the same data
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = whole::seed, allow_negative_numbers = true)]
     seed: u64,
     /// Range of a joint or input: "beta=-30 deg..60 deg" (may be given several times)
     #[arg(long, value_name = "joint=lo..hi")]

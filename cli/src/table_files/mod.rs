@@ -59,6 +59,13 @@ pub fn known_format(path: &Path) -> Result<(), Failure> {
         );
         return Err(Failure::Input(message));
     }
+    if ["toml", "chain"].contains(&ending(path).as_str()) {
+        let message = format!(
+            "`{}`: this is a text of trueaxis, and a table of data goes here (.csv or .parquet); a study names its tables under `data`",
+            path.display()
+        );
+        return Err(Failure::Input(message));
+    }
     if ["xlsx", "xls", "ods", "arrow", "feather"].contains(&ending(path).as_str()) {
         let message = format!(
             "`{}`: tables are read and written as .csv or .parquet; convert it first",
@@ -90,7 +97,11 @@ pub fn open_table(path: &Path, options: &Options) -> Result<Box<dyn TableReader>
     formats::open(open_named(path, None)?, &path.display().to_string(), options)
 }
 
-fn open_named(beside: &Path, from: Option<&str>) -> Result<Input<'static>, DataError> {
+/// Opens a data file by its path; one that is not there comes with where it is to be had.
+///
+/// # Errors
+/// It cannot be read.
+pub fn open_named(beside: &Path, from: Option<&str>) -> Result<Input<'static>, DataError> {
     let unreadable = |error: &io::Error| {
         let why = match source::not_readable(beside, error) {
             Failure::Read { why, .. } => why,

@@ -119,3 +119,53 @@ fn a_file_that_is_no_text_is_named_as_what_it_is() {
         "{told}"
     );
 }
+
+#[test]
+fn a_text_where_a_table_is_needed_and_json_where_a_declaration_is() {
+    let folder = mount("text-for-a-table");
+    folder.write("study.toml", "chain = \"mount.chain\"\ndata = \"poses.csv\"\n");
+    folder.write("report.json", "{ \"verdict\": \"explained\" }\n");
+    for file in ["study.toml", "mount.chain"] {
+        let asked = ["eval", "mount.chain", "--errors", "e.toml", "--data", file, "--out", "out.csv"];
+        let run = folder.trueaxis(&asked);
+        assert!(
+            refused(&run).contains(&format!("`{file}`: this is a text of trueaxis, and a table")),
+            "{run}"
+        );
+    }
+    let run = folder.trueaxis(&["derive", "report.json"]);
+    assert!(
+        refused(&run).contains("give `instrument.toml`, which `calibrate` writes beside its report"),
+        "{run}"
+    );
+}
+
+#[test]
+fn an_empty_study_and_a_table_that_is_not_there_say_how_to_begin() {
+    let folder = mount("empty-study");
+    folder.write("empty.toml", "# to be written\n");
+    let run = folder.trueaxis(&["calibrate", "empty.toml"]);
+    assert!(refused(&run).contains("`empty.toml` is empty: `trueaxis init TABLE.csv` writes"), "{run}");
+    let run = folder.trueaxis(&["init", "nowhere.csv"]);
+    assert_eq!(refused(&run).matches("nowhere.csv").count(), 1, "{run}");
+    folder.write("my sky.csv", "azimuth [deg];elevation [deg]\n10,5;20\n11,5;30\n");
+    let run = folder.trueaxis(&["calibrate", "my sky.csv"]);
+    assert!(refused(&run).contains("`trueaxis init 'my sky.csv'`"), "{run}");
+}
+
+/// What was typed for a number is answered with a number to write.
+#[test]
+fn numbers_that_are_none() {
+    let folder = mount("numbers");
+    let simulate = ["simulate", "mount.chain", "--errors", "e.toml", "--noise", "1 arcsec", "--out", "o.csv"];
+    for (own, words) in [
+        (["--poses", "ten", "--seed", "1"], "write a whole number from 1 on, such as 100"),
+        (["--poses", "-3", "--seed", "1"], "write a whole number from 1 on, such as 100"),
+        (["--poses", "10", "--seed", "-1"], "a seed is a whole number from 0 to 18446744073709551615"),
+    ] {
+        let run = folder.trueaxis(&[&simulate[..], &own[..]].concat());
+        assert!(refused(&run).contains(words), "{run}");
+    }
+    let run = folder.trueaxis(&["derive", "mount.chain", "--order", "7"]);
+    assert!(refused(&run).contains("write a whole number from 1 to 3"), "{run}");
+}

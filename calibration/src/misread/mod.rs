@@ -21,7 +21,10 @@ use study::{Plan, Sample};
 use hypotheses::Written;
 pub use hypotheses::{Heading, Line, Reading};
 pub use policy::THRESHOLDS;
-use policy::{CLEARED, MARGIN, ONE_OF, RATIO, RATIO_ROWS, SAME, STATES_MARGIN, STATES_RATIO};
+use policy::{
+    CLEARED, MARGIN, ONE_OF, RATIO, RATIO_ROWS, SAME, STATES_MARGIN, STATES_RATIO, STATES_RATIO_FEW,
+    STATES_ROWS,
+};
 pub use prior::{Implausible, implausible};
 use score::Score;
 use trial::{Trial, Tried};
@@ -121,7 +124,8 @@ fn explains(trial: &Trial<'_>, tried: &Tried, as_read: &Score, own: &Observation
         Reading::Shifted { .. } => ratio <= RATIO_ROWS,
         Reading::Packed { .. } => ratio <= SAME && hypothesis.digits > 0.0,
         Reading::TwoStates { .. } => {
-            as_read.rms > rounding && ratio.min(score.rms / as_read.rms) <= STATES_RATIO
+            let most = if (own.rows() as f64) < STATES_ROWS { STATES_RATIO_FEW } else { STATES_RATIO };
+            as_read.rms > rounding && ratio.min(score.rms / as_read.rms) <= most
         }
         // A robust scale hides a minority of rows.
         Reading::FromRow { .. } => as_read.rms > rounding && ratio.min(score.rms / as_read.rms) <= RATIO,

@@ -38,8 +38,9 @@ pub(super) const STATES_MARGIN: f64 = 10.0;
 pub(super) const STATES_RATIO: f64 = 0.6;
 pub(super) const STATES_APART: f64 = 6.0;
 pub(super) const STATES_FEWEST_SHARE: f64 = 0.1;
-/// Of fewer rows a wave looks like two kinds by chance.
+/// In fewer rows a wave looks like two kinds by chance: there the residual must shrink to the second share.
 pub(super) const STATES_ROWS: f64 = 20.0;
+pub(super) const STATES_RATIO_FEW: f64 = 0.1;
 /// The kinds follow no order, joint or column: they change at least at this share of the places where they would by chance.
 pub(super) const STATES_SCATTERED: f64 = 0.5;
 /// An instrument is calibrated over this much of a joint, rad; a unit by which it moved less is rarer by the logarithm of the share.
@@ -137,8 +138,14 @@ pub const THRESHOLDS: &[Threshold] = &[
     Threshold::new(
         "misread.states_rows",
         STATES_ROWS,
-        "rows at least that are parted into two kinds",
-        "105 clean simulated studies: with 10, a wave in 12 rows was taken for two kinds",
+        "rows below which two kinds may leave no more than `misread.states_ratio_few`",
+        "105 clean simulated studies: without it, a wave in 12 rows was taken for two kinds",
+    ),
+    Threshold::new(
+        "misread.states_ratio_few",
+        STATES_RATIO_FEW,
+        "share of the residual that two kinds of few rows may leave",
+        "judgement: a play leaves a hundredth, a wave a third",
     ),
     Threshold::new(
         "misread.states_fewest",

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::estimated;
 use super::hypotheses::{Hypothesis, Reading};
-use super::policy::{RARE, STATES_APART, STATES_FEWEST_SHARE, STATES_PRICE, STATES_ROWS, STATES_SCATTERED};
+use super::policy::{RARE, STATES_APART, STATES_FEWEST_SHARE, STATES_PRICE, STATES_SCATTERED};
 use super::score::{Score, log_density, trimmed, width};
 use crate::search::columns::Columns;
 use fit::noise::Layout;
@@ -50,9 +50,6 @@ impl Rows<'_> {
     pub fn parted(&self, as_read: &Score) -> Option<(Hypothesis, Score)> {
         let [series] = &self.observations.poses.series[..] else { return None };
         let (rows, stride) = (self.observations.rows(), series.measure.components());
-        if (rows as f64) < STATES_ROWS {
-            return None;
-        }
         let errors: Vec<SymbolId> = estimated(self.plan).collect();
         let (residual, jacobian) = self.linearised(&errors, &as_read.values)?;
         let basis = basis(&jacobian);

@@ -7,6 +7,7 @@
 mod frame;
 pub mod links;
 mod look;
+mod machine_tools;
 mod observed;
 mod otherwise;
 mod placed;

@@ -56,6 +56,7 @@ pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
         Observed::Direction(read) => ("direction", ["x", "y", "z"].into_iter().zip(read).collect()),
         Observed::Offset(read) => ("offset", ["cross", "along"].into_iter().zip(read).collect()),
         Observed::Point(read) => ("point", ["x", "y", "z"].into_iter().zip(read).collect()),
+        Observed::Range(read) => ("range", vec![("range", read)]),
         Observed::Target(..) => ("target", Vec::new()),
     };
     let _ = writeln!(text, "kind = \"{kind}\"");
@@ -90,7 +91,7 @@ pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
         text.push_str("\n[search]\n");
         let _ = writeln!(text, "inputs = {}", list(draft.inputs.iter().map(String::as_str)));
     }
-    let good = if matches!(draft.observed, Observed::Point(_) | Observed::Target(..)) {
+    let good = if matches!(draft.observed, Observed::Point(_) | Observed::Range(_) | Observed::Target(..)) {
         "0.1 mm"
     } else {
         "5 arcsec"

@@ -22,6 +22,9 @@ pub const TEMPLATE: Template = Template {
 const ROUND: f64 = 1e-3;
 /// The bar is as long as the circle's radius within this share.
 const AS_LONG: f64 = 0.02;
+/// Rows follow each other where they are nearer than this share of the radius, and so many of them.
+const STEP: f64 = 0.5;
+const MOST_STEPS: f64 = 0.9;
 /// A centre this near to zero is at zero, m.
 const AT_ZERO_M: f64 = 1e-7;
 
@@ -49,6 +52,13 @@ fn draft(look: &Look) -> Result<Draft, String> {
         read.iter().map(|(axis, own)| (*axis, machine_tools::moves(own))).collect();
     let moving: Vec<usize> = axes.iter().filter(|(_, moves)| *moves).map(|(axis, _)| *axis).collect();
     let centre = centre(look, &read, &moving, &length)?;
+    let is_in_order = follow(&read, &length);
+    if is_in_order {
+        remarks.push(
+            "assumed: the rows are in the order in which they were taken, so that backlash is looked for"
+                .to_owned(),
+        );
+    }
     let slides = machine_tools::slides(&axes, "ground", true);
     remarks.push(slides.remark);
     remarks.push("a bar that is longer than stated looks like a scale of all axes".to_owned());
@@ -97,8 +107,18 @@ chain BallBar {{
         estimate: Vec::new(),
         start: Vec::new(),
         inputs: beside.names,
+        is_in_order,
         remarks,
     })
+}
+
+/// Whether nearly all rows are near the one before them, as on a path.
+fn follow(read: &[(usize, Read)], bar: &Read) -> bool {
+    let steps = bar.si.len().saturating_sub(1);
+    let step =
+        |row: usize| read.iter().map(|(_, own)| (own.si[row + 1] - own.si[row]).powi(2)).sum::<f64>().sqrt();
+    let near = (0..steps).filter(|row| step(*row) <= STEP * bar.si[*row]).count();
+    near as f64 >= MOST_STEPS * steps as f64
 }
 
 /// The centre of the circle or the sphere that the commanded positions are on, m; an axis that stands still has its own position.

@@ -52,6 +52,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         estimate: vec!["*", "place_*"],
         start,
         inputs: beside.names,
+        is_in_order: false,
         remarks,
     })
 }

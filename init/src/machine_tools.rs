@@ -142,8 +142,14 @@ pub fn slides(axes: &[(usize, bool)], on: &str, has_scales: bool) -> Slides {
     }
     let names: Vec<&str> = axes.iter().map(|(axis, _)| AXES[*axis]).collect();
     let still: Vec<&str> = axes.iter().filter(|(_, moves)| !moves).map(|(axis, _)| AXES[*axis]).collect();
-    let mut remark =
-        format!("assumed: {} carries the next in a row, as seen from the workpiece", names.join(", then "));
+    let mut remark = match names.as_slice() {
+        [only] => format!("assumed: {only} is the only slide"),
+        [first, others @ ..] => {
+            let others: Vec<String> = others.iter().map(|name| format!(" carries {name}")).collect();
+            format!("assumed: {first}{}, as seen from the workpiece", others.join(", which"))
+        }
+        [] => String::new(),
+    };
     if !still.is_empty() {
         remark += &format!("; {} does not move in these rows, and has no errors", still.join(" and "));
     }

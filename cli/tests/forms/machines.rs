@@ -55,14 +55,14 @@ const MACHINES: &[Machine] = &[
     Machine {
         file: "bar-zx.csv",
         template: "ball-bar",
-        says: "the angle runs from z to x",
+        says: "assumed: x carries z",
         planted: &[("square_xz", -35e-6), ("scale_x", -9e-6), ("scale_z", 14e-6)],
         corrected: BAR,
     },
     Machine {
         file: "bar-space.csv",
         template: "ball-bar",
-        says: "looks like a scale of all axes",
+        says: "x carries y, which carries z",
         planted: &[
             ("square_xy", 28e-6),
             ("square_xz", -41e-6),
@@ -76,7 +76,7 @@ const MACHINES: &[Machine] = &[
     Machine {
         file: "r-test-c.csv",
         template: "r-test",
-        says: "along the axes of the table",
+        says: "of the tool against the table",
         planted: &[
             ("square_xy", 26e-6),
             ("c_shift_x", 12.1e-6),

@@ -82,12 +82,14 @@ def bar_xy():
 def bar_both_ways():
     """Once round and back: the slide of y is half of its lost motion behind on either way."""
     radius, lost = 150.0, 0.006
+    before = -1.0
     lines = ["# radius = 150 mm", "programmed x [mm],programmed y [mm],deviation [um]"]
     for way in (1, -1):
         for step in range(150):
             angle = way * step * 2.4 * DEG
             command = [radius * math.cos(angle), radius * math.sin(angle), 0.0]
-            behind = math.copysign(lost / 2, way * math.cos(angle))
+            behind = math.copysign(lost / 2, command[1] - before)
+            before = command[1]
             bar = length(tip([command[0], command[1] + behind, 0.0], xy=44e-6, scales=(9e-6, 21e-6, 0.0)))
             lines.append(f"{command[0]:.4f},{command[1]:.4f},{1e3 * (bar - radius) + chance.gauss(0, 0.25):.2f}")
     write("bar-both-ways.csv", lines)

@@ -12,7 +12,7 @@ use crate::{Draft, Observed};
 
 pub const TEMPLATE: Template = Template {
     name: "ball-bar",
-    what: "a machine with slides in a circular test: the length of a ball bar",
+    what: "slides that go round a circle, with a ball bar",
     looks_for: "commanded x, y (z), or an angle; radial deviation with a line `# radius = 150 mm`, or bar length",
     fits: |look| machine_tools::test(look) == Some(Test::Bar),
     draft,
@@ -61,7 +61,10 @@ fn draft(look: &Look) -> Result<Draft, String> {
     }
     let slides = machine_tools::slides(&axes, "ground", true);
     remarks.push(slides.remark);
-    remarks.push("a bar that is longer than stated looks like a scale of all axes".to_owned());
+    remarks.push(
+        "the stated length of the bar is taken as exact: a longer one looks like a scale of all axes"
+            .to_owned(),
+    );
     let beside = Beside::of(look);
     let (mut statements, mut places) = (String::new(), Vec::new());
     for axis in 0..3 {
@@ -139,8 +142,16 @@ fn centre(look: &Look, read: &[(usize, Read)], moving: &[usize], bar: &Read) -> 
     });
     let squares = DVector::from_fn(rows, |row, _| (at(row) - middle).norm_squared());
     let normal = system.transpose() * &system;
+    let right = system.transpose() * squares;
     let scale = normal.amax();
-    let solved = (normal.svd(true, true)).solve(&(system.transpose() * squares), 1e-12 * scale);
+    // A decomposition of what is not finite need not end.
+    if !normal.iter().chain(right.iter()).all(|entry| entry.is_finite()) {
+        return Err(machine_tools::lacking(
+            look,
+            "the commanded positions are too far apart: correct their units",
+        ));
+    }
+    let solved = normal.svd(true, true).solve(&right, 1e-12 * scale);
     let mut centre = middle;
     for (own, axis) in solved.iter().flat_map(|solved| solved.iter()).zip(moving) {
         centre[*axis] += own;

@@ -7,7 +7,7 @@ use crate::{Draft, Observed, placed};
 
 pub const TEMPLATE: Template = Template {
     name: "machine",
-    what: "a machine with three slides that measures a plate of balls, or whose positions were measured",
+    what: "three slides, against a plate of balls, a grid or a tracker",
     looks_for: "commanded x, y, z and true x, y, z; calibrated x, y, z and machine x, y, z; or x, y, z and deviations dx, dy, dz",
     fits: |look| machine_tools::test(look) == Some(Test::Points),
     draft,

@@ -11,7 +11,7 @@ use crate::{Draft, Observed, placed};
 
 pub const TEMPLATE: Template = Template {
     name: "r-test",
-    what: "a machine with three slides and a table that turns, in an R-test",
+    what: "three slides and a table that turns, in an R-test",
     looks_for: "commanded x, y, z; c, or a and c, or b and c; displacements dx, dy, dz with a line `# displacement = table`",
     fits: |look| machine_tools::test(look) == Some(Test::Turning),
     draft,
@@ -160,6 +160,10 @@ fn fitted(points: &[Vector3<f64>], turning: &[Turning], signs: [f64; 2]) -> (f64
         right += block.transpose() * point;
     }
     let scale = normal.amax();
+    // A decomposition of what is not finite need not end.
+    if !normal.iter().chain(right.iter()).all(|entry| entry.is_finite()) {
+        return (f64::INFINITY, Vec::new());
+    }
     let Ok(solved) = normal.svd(true, true).solve(&right, 1e-12 * scale) else {
         return (f64::INFINITY, Vec::new());
     };

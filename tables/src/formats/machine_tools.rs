@@ -50,7 +50,8 @@ struct Additions {
     added: Vec<Added>,
     /// The columns that say nothing more.
     behind: Vec<usize>,
-    remark: String,
+    /// What was assumed, or what lacks.
+    remark: Option<String>,
 }
 
 /// A table with absolute positions beside its deviations, if it is a test of a machine tool. `comments` are the lines above its header.
@@ -61,7 +62,7 @@ pub(super) fn seen<'r>(table: Box<dyn TableReader + 'r>, comments: &str) -> Box<
         Ok(None) => return table,
         Ok(Some(additions)) => additions,
         Err(Lack(why)) => {
-            let remark = format!("{LACKS}: {why}");
+            let remark = Some(format!("{LACKS}: {why}"));
             Additions { added: Vec::new(), behind: Vec::new(), remark }
         }
     };
@@ -176,12 +177,9 @@ fn of_positions(
             "calibrated - machine",
         )
     };
-    let remark = match is_true_minus_read {
-        Some(_) => format!("{what} with the deviations, as the line above the header defines them"),
-        None => format!(
-            "{what} plus the deviations ({minus}); where these are the opposite, write `# deviation = {instead}` above the header"
-        ),
-    };
+    let remark = is_true_minus_read.is_none().then(|| {
+        format!("{what} plus the deviations ({minus}); where these are the opposite, write `# deviation = {instead}` above the header")
+    });
     Ok(Additions { added, behind: columns.deviations.into_iter().flatten().collect(), remark })
 }
 
@@ -205,7 +203,8 @@ fn of_nest(
             "tables that turn by a and by b are not read: leave the one that stands still out".to_owned(),
         ));
     }
-    let sign = if said.is_true_minus_read()?.unwrap_or(true) { 1.0 } else { -1.0 };
+    let is_true_minus_read = said.is_true_minus_read()?;
+    let sign = if is_true_minus_read.unwrap_or(true) { 1.0 } else { -1.0 };
     let pairs = complete(header, columns, alone)?;
     let first = about_x.map(|at| (at, 0)).or(about_y.map(|at| (at, 1)));
     let turning: Vec<(usize, usize)> = first.into_iter().chain(about_z.map(|at| (at, 2))).collect();
@@ -234,11 +233,10 @@ fn of_nest(
         };
         added.push(Added { name, needs, of: Box::new(of), in_si });
     }
-    let remark = format!(
-        "displacements are those of the tool against the table, along the axes of the {}; where they are the opposite, write \
-         `# deviation = table - tool` above the header",
-        if along == Along::Table { "table" } else { "machine" }
-    );
+    let remark = is_true_minus_read.is_none().then(|| {
+        "displacements are those of the tool against the table; where they are the opposite, write `# deviation = table - tool` above the header"
+            .to_owned()
+    });
     Ok(Additions { added, behind: columns.deviations.into_iter().flatten().collect(), remark })
 }
 
@@ -259,6 +257,10 @@ fn of_bar(
     deviation: usize,
     said: &Said<'_>,
 ) -> Result<Option<Additions>, Lack> {
+    // What was measured needs no deviation.
+    if columns.bar.is_some() {
+        return Ok(None);
+    }
     let commanded = columns.commanded()?;
     let stated = said.radius_m()?;
     if commanded.is_none() && columns.angle.is_none() {
@@ -293,7 +295,7 @@ fn of_bar(
     }];
     let mut behind = vec![deviation];
     behind.extend(columns.radius);
-    let mut remark = "the length of the bar is its nominal length plus the deviation; the nominal length is taken as exact".to_owned();
+    let mut remark = None;
     if let (Some(at), None) = (columns.angle, commanded) {
         let plane = said.plane()?;
         behind.push(at);
@@ -310,13 +312,11 @@ fn of_bar(
             });
         }
         let [one, other] = plane.axes.map(|axis| AXES[axis]);
-        remark += &if plane.is_said {
-            format!("; the angle runs from {one} to {other} about the centre of the circle")
-        } else {
+        remark = (!plane.is_said).then(|| {
             format!(
-                "; the angle is taken to run from {one} to {other}: for another plane write `# plane = YZ` or `# plane = ZX` above the header"
+                "the angle is taken to run from {one} to {other}: for another plane write `# plane = YZ` or `# plane = ZX` above the header"
             )
-        };
+        });
     }
     Ok(Some(Additions { added, behind, remark }))
 }
@@ -369,7 +369,7 @@ impl TableReader for Reader<'_> {
 
     fn remarks(&self) -> Vec<String> {
         let mut remarks = self.table.remarks();
-        remarks.push(self.additions.remark.clone());
+        remarks.extend(self.additions.remark.clone());
         remarks
     }
 

@@ -52,7 +52,8 @@ const DEVIATION: &[&str] = &[
     "diff",
     "difference",
 ];
-const BAR: &[&str] = &["bar", "ballbar", "radius", "radial", "length", "r"];
+const BAR: &[&str] = &["bar", "ballbar", "radial", "length"];
+const RADIUS: &[&str] = &["radius", "r"];
 const ANGLE: &[&str] = &["angle", "theta", "phi", "polar"];
 /// What is measured to calibrate a machine that reads it.
 const ARTEFACT: &[&str] = &["ball", "sphere", "plate", "artefact", "artifact"];
@@ -105,6 +106,8 @@ enum Role {
     BarDeviation,
     /// A length of a bar, measured or nominal.
     Bar(Side),
+    /// A radius without a word for a side.
+    Radius,
     Angle,
 }
 
@@ -163,8 +166,8 @@ impl Columns {
                 Some(Role::Turn(axis)) => &mut own.turns[axis],
                 Some(Role::BarDeviation) => &mut own.bar_deviation,
                 Some(Role::Bar(Side::Nominal | Side::True | Side::Read)) => &mut own.radius,
-                Some(Role::Bar(Side::Measured)) => &mut own.bar,
-                Some(Role::Bar(Side::Unsaid)) => &mut unsaid,
+                Some(Role::Bar(Side::Measured | Side::Unsaid)) => &mut own.bar,
+                Some(Role::Radius) => &mut unsaid,
                 Some(Role::Angle) => &mut own.angle,
             };
             match *place {
@@ -172,7 +175,7 @@ impl Columns {
                 None => *place = Some(at),
             }
         }
-        // A length beside its deviation is nominal.
+        // A radius beside its deviation is nominal.
         let place = if own.bar_deviation.is_some() { &mut own.radius } else { &mut own.bar };
         *place = place.or(unsaid);
         own
@@ -273,7 +276,7 @@ impl Columns {
 /// What a column of these words is; none of a column with a word that no such test has.
 fn role(words: &[String]) -> Option<Role> {
     let (mut linear, mut turn) = (None, None);
-    let (mut deviates, mut is_bar, mut is_angle) = (false, false, false);
+    let [mut deviates, mut is_bar, mut is_radius, mut is_angle] = [false; 4];
     let [mut read, mut truth, mut nominal, mut measured] = [false; 4];
     for word in words {
         let word = word.as_str();
@@ -288,12 +291,13 @@ fn role(words: &[String]) -> Option<Role> {
         } else if let Some(axis) = letter(behind, ["x", "y", "z"]) {
             (linear, deviates) = (Some(axis), true);
         } else if behind == "r" {
-            (is_bar, deviates) = (true, true);
+            (is_radius, deviates) = (true, true);
         } else {
             let is = |of: &[&str]| of.contains(&word);
             let known = [
                 (&mut deviates, is(DEVIATION)),
                 (&mut is_bar, is(BAR)),
+                (&mut is_radius, is(RADIUS)),
                 (&mut is_angle, is(ANGLE)),
                 (&mut read, is(READ)),
                 (&mut truth, is(TRUE)),
@@ -318,11 +322,12 @@ fn role(words: &[String]) -> Option<Role> {
         (false, false, false, false) => Side::Unsaid,
         _ => return None,
     };
-    match (linear, turn, is_bar, is_angle) {
+    match (linear, turn, is_bar || is_radius, is_angle) {
         (Some(axis), None, false, false) if deviates => Some(Role::Deviation(axis)),
         (Some(axis), None, false, false) => Some(Role::Position(side, axis)),
         (None, Some(axis), false, false) if !deviates => Some(Role::Turn(axis)),
         (None, None, true, false) if deviates => Some(Role::BarDeviation),
+        (None, None, true, false) if is_radius && side == Side::Unsaid => Some(Role::Radius),
         (None, None, true, false) => Some(Role::Bar(side)),
         (None, None, false, true) if !deviates => Some(Role::Angle),
         (None, None, false, false) if deviates => Some(Role::BarDeviation),
@@ -359,6 +364,7 @@ mod tests {
             ("dr_um", Some(Role::BarDeviation)),
             ("nominal radius [mm]", Some(Role::Bar(Side::Nominal))),
             ("bar length [mm]", Some(Role::Bar(Side::Unsaid))),
+            ("R [mm]", Some(Role::Radius)),
             ("angle [deg]", Some(Role::Angle)),
             ("tip_x_mm", None),
             ("std_x", None),
@@ -371,6 +377,18 @@ mod tests {
             let found = if words.is_empty() { None } else { role(&words) };
             assert_eq!(found, expected, "{name}");
         }
+    }
+
+    #[test]
+    fn a_radius_beside_its_deviation_is_nominal() {
+        let bar = |header: &str| {
+            let own = columns(header);
+            (own.bar, own.radius, own.bar_deviation)
+        };
+        assert_eq!(bar("x,y,radius,dr"), (None, Some(2), Some(3)));
+        assert_eq!(bar("x,y,radius"), (Some(2), None, None));
+        assert_eq!(bar("x,y,bar length,deviation"), (Some(2), None, Some(3)));
+        assert_eq!(bar("x,y,nominal length,deviation"), (None, Some(2), Some(3)));
     }
 
     #[test]

@@ -416,3 +416,6 @@ impl TableReader for Reader<'_> {
         Ok(chunk)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -201,6 +201,34 @@ fn what_a_table_of_a_machine_lacks_is_said_in_one_sentence() {
     }
 }
 
+/// Positions in the frame of a table stand still, and those of a head turn the other way.
+#[test]
+fn positions_that_do_not_follow_a_table_are_refused() {
+    let folder = folder("machines-path", &["r-test-ac.csv"]);
+    let text = folder.read("r-test-ac.csv");
+    let rows = |change: &dyn Fn(&mut Vec<String>)| {
+        let rows = text.lines().enumerate().map(|(at, line)| {
+            let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+            if at > 1 {
+                change(&mut cells);
+            }
+            cells.join(",") + "\n"
+        });
+        rows.collect::<String>()
+    };
+    let still =
+        rows(&|cells| ["88", "0", "61"].iter().zip(cells).for_each(|(new, cell)| *cell = (*new).to_owned()));
+    let opposite = rows(&|cells| cells[4] = (-cells[4].parse::<f64>().expect("an angle")).to_string());
+    for (name, text, says) in [
+        ("still.csv", still, "not those in the frame of the table"),
+        ("opposite.csv", opposite, "heads are not known"),
+    ] {
+        let init = folder.write(name, text).trueaxis(&["init", name]);
+        assert_eq!(init.code, 2, "{name}: {init}");
+        assert!(init.stderr.contains(says), "{name}: {init}");
+    }
+}
+
 /// The opposite sign of deviations, stated above the header, is the opposite of every error.
 #[test]
 fn deviations_of_the_opposite_sign_are_read_as_a_line_defines_them() {

@@ -47,9 +47,15 @@ fn draft(look: &Look) -> Result<Draft, String> {
     let mut remarks = Vec::new();
     let [read, truth] = machine_tools::pair(look, &mut remarks)?;
     let turning = turning(look, &mut remarks)?;
-    let places = path(look, &read, &turning)?;
     let axes: Vec<(usize, bool)> =
         read.iter().enumerate().map(|(axis, read)| (axis, machine_tools::moves(read))).collect();
+    if axes.iter().filter(|(_, moves)| *moves).count() < 2 {
+        return Err(machine_tools::lacking(
+            look,
+            "the commanded positions do not follow the sphere: write those of the machine's slides, not those in the frame of the table",
+        ));
+    }
+    let places = path(look, &read, &turning)?;
     let slides = machine_tools::slides(&axes, "ground", false);
     remarks.push(slides.remark.clone());
     let names: Vec<&str> = turning.iter().map(|turning| TURNS[turning.about]).collect();

@@ -52,8 +52,8 @@ const DEVIATION: &[&str] = &[
     "diff",
     "difference",
 ];
-const BAR: &[&str] = &["bar", "ballbar", "radial", "length"];
-const RADIUS: &[&str] = &["radius", "r"];
+const BAR: &[&str] = &["bar", "ballbar"];
+const RADIUS: &[&str] = &["radius", "radial", "length", "r"];
 const ANGLE: &[&str] = &["angle", "theta", "phi", "polar"];
 /// What is measured to calibrate a machine that reads it.
 const ARTEFACT: &[&str] = &["ball", "sphere", "plate", "artefact", "artifact"];
@@ -106,7 +106,7 @@ enum Role {
     BarDeviation,
     /// A length of a bar, measured or nominal.
     Bar(Side),
-    /// A radius without a word for a side.
+    /// A radius or a length without a word for a side.
     Radius,
     Angle,
 }
@@ -175,9 +175,8 @@ impl Columns {
                 None => *place = Some(at),
             }
         }
-        // A radius beside its deviation is nominal.
-        let place = if own.bar_deviation.is_some() { &mut own.radius } else { &mut own.bar };
-        *place = place.or(unsaid);
+        // A radius beside its deviation is nominal. Alone it may be anything's.
+        own.radius = own.radius.or(unsaid.filter(|_| own.bar_deviation.is_some()));
         own
     }
 
@@ -327,7 +326,7 @@ fn role(words: &[String]) -> Option<Role> {
         (Some(axis), None, false, false) => Some(Role::Position(side, axis)),
         (None, Some(axis), false, false) if !deviates => Some(Role::Turn(axis)),
         (None, None, true, false) if deviates => Some(Role::BarDeviation),
-        (None, None, true, false) if is_radius && side == Side::Unsaid => Some(Role::Radius),
+        (None, None, true, false) if !is_bar && side == Side::Unsaid => Some(Role::Radius),
         (None, None, true, false) => Some(Role::Bar(side)),
         (None, None, false, true) if !deviates => Some(Role::Angle),
         (None, None, false, false) if deviates => Some(Role::BarDeviation),
@@ -386,7 +385,8 @@ mod tests {
             (own.bar, own.radius, own.bar_deviation)
         };
         assert_eq!(bar("x,y,radius,dr"), (None, Some(2), Some(3)));
-        assert_eq!(bar("x,y,radius"), (Some(2), None, None));
+        assert_eq!(bar("x,y,radius"), (None, None, None));
+        assert_eq!(bar("x,y,measured radius"), (Some(2), None, None));
         assert_eq!(bar("x,y,bar length,deviation"), (Some(2), None, Some(3)));
         assert_eq!(bar("x,y,nominal length,deviation"), (None, Some(2), Some(3)));
     }

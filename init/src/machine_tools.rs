@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use tables::formats::machine_tools::{Columns, LACKS, Lack, Three};
+use tables::formats::machine_tools::{Columns, Lack, Three};
 
 use super::look::{Column, Look, Read};
 use super::words::Part;
@@ -45,7 +45,7 @@ pub fn test(look: &Look) -> Option<Test> {
     let has_commanded = columns
         .commanded()
         .is_ok_and(|commanded| commanded.is_some_and(|commanded| commanded.iter().flatten().count() > 1));
-    match (columns.bar.is_some() && has_commanded, is_pair || lacks(look).is_some()) {
+    match (columns.bar.is_some() && has_commanded, is_pair || look.lacks.is_some()) {
         (true, _) => Some(Test::Bar),
         (false, true) if columns.turns_any() => Some(Test::Turning),
         (false, true) => Some(Test::Points),
@@ -58,14 +58,9 @@ pub fn is_one(look: &Look) -> bool {
     test(look).is_some()
 }
 
-/// What the deviations of a table lack.
-fn lacks(look: &Look) -> Option<&String> {
-    look.remarks.iter().find(|remark| remark.starts_with(LACKS))
-}
-
 /// Why nothing can be begun: what the reader of the file found missing, or else a reason.
 pub fn lacking(look: &Look, why: &str) -> String {
-    format!("{}: {}", look.file, lacks(look).map_or(why, String::as_str))
+    format!("{}: {}", look.file, look.lacks.as_deref().unwrap_or(why))
 }
 
 /// Positions that the machine read, and true ones, each of x, y and z.

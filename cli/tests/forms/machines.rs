@@ -185,8 +185,8 @@ fn what_a_table_of_a_machine_lacks_is_said_in_one_sentence() {
         ("plate-1.csv", ",measured z [mm]", ",height", "no column has the z"),
         ("grid-2.csv", "X_mm,", "X,", "has no unit of a length"),
         ("grid-2.csv", "X_mm,Y_mm", "X_mm,x_mm", "have the same meaning"),
-        ("grid-2.csv", "-2.92", "", "line 2, row 1, column `deviation X (µm)`"),
-        ("grid-2.csv", "-2.92", "much", "line 2, row 1, column `deviation X (µm)`"),
+        ("grid-2.csv", "-4.21,", ",", "line 2, row 1, column `deviation X (µm)`"),
+        ("grid-2.csv", "-4.21,", "much,", "line 2, row 1, column `deviation X (µm)`"),
     ] {
         let text = folder.read(file);
         assert!(text.contains(from), "{file}: {from}");

@@ -1,7 +1,7 @@
 //! Tests of machine tools as separated values: ball bars, R-tests, plates and grids. Deviations become positions and lengths that are
 //! absolute, in columns of their own behind those of the file, computed as rows are read.
 //!
-//! What lacks for that (a unit, a radius, an axis) is remarked on, and the table is read as it is.
+//! Where something lacks for that (a unit, a radius, an axis) the table is read as it is, and who begins a study of it asks what.
 //!
 //! Sources: ISO 230-1:2012 and ISO 230-2:2014 (a deviation is the actual position minus the commanded one); ISO 230-4:2022 (circular tests);
 //! ISO 841:2001 (a table turns against the sign of its axis); S. Weikert, R-Test, a new device for accuracy measurements on five axis machine
@@ -42,15 +42,12 @@ impl Added {
     }
 }
 
-/// What a remark on a table begins with whose deviations lack something.
-pub const LACKS: &str = "the deviations are not read";
-
 /// What is added to a table.
 struct Additions {
     added: Vec<Added>,
     /// The columns that say nothing more.
     behind: Vec<usize>,
-    /// What was assumed, or what lacks.
+    /// What was assumed.
     remark: Option<String>,
 }
 
@@ -58,23 +55,23 @@ struct Additions {
 pub(super) fn seen<'r>(table: Box<dyn TableReader + 'r>, comments: &str) -> Box<dyn TableReader + 'r> {
     let header = table.header();
     let columns = Columns::of(header);
-    let mut additions = match additions(header, &columns, &Said(comments)) {
+    let (mut additions, lacks) = match additions(header, &columns, &Said(comments)) {
         Ok(None) => return table,
-        Ok(Some(additions)) => additions,
-        Err(Lack(why)) => {
-            let remark = Some(format!("{LACKS}: {why}"));
-            Additions { added: Vec::new(), behind: Vec::new(), remark }
-        }
+        Ok(Some(additions)) => (additions, None),
+        Err(Lack(why)) => (Additions { added: Vec::new(), behind: Vec::new(), remark: None }, Some(why)),
     };
     additions.behind.extend(table.behind());
     let names = additions.added.iter().map(|added| added.name.clone());
     let header: Vec<ColumnName> = header.iter().cloned().chain(names).collect();
-    Box::new(Reader { table, header, additions })
+    Box::new(Reader { table, header, additions, lacks })
 }
 
 fn additions(header: &[ColumnName], columns: &Columns, said: &Said<'_>) -> Result<Option<Additions>, Lack> {
     let of_axes: Vec<usize> = (0..3).filter(|axis| columns.deviations[*axis].is_some()).collect();
-    let found = match (of_axes.as_slice(), columns.bar_deviation) {
+    let is_known = said.radius_m().is_ok_and(|radius| radius.is_some()) || columns.radius.is_some();
+    // Of what a column called `deviation` alone is one, a radius says.
+    let of_bar_alone = columns.bar_deviation.or(columns.deviation.filter(|_| is_known));
+    let found = match (of_axes.as_slice(), of_bar_alone) {
         ([], None) => return Ok(None),
         ([], Some(deviation)) => of_bar(header, columns, deviation, said)?,
         (_, _) if columns.pair()?.is_some() => return Ok(None),
@@ -266,7 +263,6 @@ fn of_bar(
     if commanded.is_none() && columns.angle.is_none() {
         return Ok(None);
     }
-    // A column `deviation` alone is of a bar where a radius is known.
     let (radius, of_column) = match (stated, columns.radius) {
         (Some(radius), None) => (radius, None),
         (None, Some(at)) => (0.0, Some(length(header, at)?)),
@@ -326,6 +322,7 @@ struct Reader<'r> {
     table: Box<dyn TableReader + 'r>,
     header: Vec<ColumnName>,
     additions: Additions,
+    lacks: Option<String>,
 }
 
 impl Reader<'_> {
@@ -371,6 +368,10 @@ impl TableReader for Reader<'_> {
         let mut remarks = self.table.remarks();
         remarks.extend(self.additions.remark.clone());
         remarks
+    }
+
+    fn lacks(&self) -> Option<&str> {
+        self.lacks.as_deref()
     }
 
     fn behind(&self) -> &[usize] {

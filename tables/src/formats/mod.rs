@@ -191,6 +191,11 @@ pub trait TableReader: Send {
         Vec::new()
     }
 
+    /// What the file lacks to be read as the test of a machine tool that it seems to be.
+    fn lacks(&self) -> Option<&str> {
+        None
+    }
+
     /// The columns from which the format itself has computed others: they say nothing that those do not.
     fn behind(&self) -> &[usize] {
         &[]

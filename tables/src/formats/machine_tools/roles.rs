@@ -104,6 +104,8 @@ enum Role {
     Deviation(usize),
     Turn(usize),
     BarDeviation,
+    /// A deviation of something.
+    AnyDeviation,
     /// A length of a bar, measured or nominal.
     Bar(Side),
     /// A radius or a length without a word for a side.
@@ -121,6 +123,8 @@ pub struct Columns {
     pub turns: Three,
     /// Deviation of the length of a bar.
     pub bar_deviation: Option<usize>,
+    /// A deviation of which no word says what it is of.
+    pub deviation: Option<usize>,
     /// Measured length of a bar.
     pub bar: Option<usize>,
     /// Nominal length of a bar.
@@ -165,6 +169,7 @@ impl Columns {
                 Some(Role::Deviation(axis)) => &mut own.deviations[axis],
                 Some(Role::Turn(axis)) => &mut own.turns[axis],
                 Some(Role::BarDeviation) => &mut own.bar_deviation,
+                Some(Role::AnyDeviation) => &mut own.deviation,
                 Some(Role::Bar(Side::Nominal | Side::True | Side::Read)) => &mut own.radius,
                 Some(Role::Bar(Side::Measured | Side::Unsaid)) => &mut own.bar,
                 Some(Role::Radius) => &mut unsaid,
@@ -176,7 +181,8 @@ impl Columns {
             }
         }
         // A radius beside its deviation is nominal. Alone it may be anything's.
-        own.radius = own.radius.or(unsaid.filter(|_| own.bar_deviation.is_some()));
+        let deviates = own.bar_deviation.is_some() || own.deviation.is_some();
+        own.radius = own.radius.or(unsaid.filter(|_| deviates));
         own
     }
 
@@ -329,7 +335,7 @@ fn role(words: &[String]) -> Option<Role> {
         (None, None, true, false) if !is_bar && side == Side::Unsaid => Some(Role::Radius),
         (None, None, true, false) => Some(Role::Bar(side)),
         (None, None, false, true) if !deviates => Some(Role::Angle),
-        (None, None, false, false) if deviates => Some(Role::BarDeviation),
+        (None, None, false, false) if deviates => Some(Role::AnyDeviation),
         _ => None,
     }
 }
@@ -359,7 +365,7 @@ mod tests {
             ("C [deg]", Some(Role::Turn(2))),
             ("commanded A [deg]", Some(Role::Turn(0))),
             ("radial deviation [um]", Some(Role::BarDeviation)),
-            ("deviation [um]", Some(Role::BarDeviation)),
+            ("deviation [um]", Some(Role::AnyDeviation)),
             ("dr_um", Some(Role::BarDeviation)),
             ("nominal radius [mm]", Some(Role::Bar(Side::Nominal))),
             ("bar length [mm]", Some(Role::Bar(Side::Unsaid))),
@@ -387,8 +393,9 @@ mod tests {
         assert_eq!(bar("x,y,radius,dr"), (None, Some(2), Some(3)));
         assert_eq!(bar("x,y,radius"), (None, None, None));
         assert_eq!(bar("x,y,measured radius"), (Some(2), None, None));
-        assert_eq!(bar("x,y,bar length,deviation"), (Some(2), None, Some(3)));
-        assert_eq!(bar("x,y,nominal length,deviation"), (None, Some(2), Some(3)));
+        assert_eq!(bar("x,y,bar length,radial deviation"), (Some(2), None, Some(3)));
+        assert_eq!(bar("x,y,nominal length,radius error"), (None, Some(2), Some(3)));
+        assert_eq!(bar("x,y,radius,deviation"), (None, Some(2), None));
     }
 
     #[test]

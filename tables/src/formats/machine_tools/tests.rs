@@ -1,3 +1,5 @@
+//! What the reader of tests of machine tools computes, against numbers that were worked out by hand.
+
 use crate::formats::{Cells, Form, Options, TableReader, Wanted, open};
 
 fn opened(text: &str) -> Result<Box<dyn TableReader + '_>, String> {

@@ -146,7 +146,7 @@ fn what_was_planted_in_a_machine_is_found_within_its_uncertainty() {
                 (value - truth).abs() < WITHIN * sigma,
                 "{file}, {name}: {value} ± {sigma}, planted {truth}"
             );
-            assert!(sigma < 0.2 * truth.abs(), "{file}, {name}: {value} ± {sigma}");
+            assert!(sigma < 0.3 * truth.abs(), "{file}, {name}: {value} ± {sigma}");
         }
         let apply =
             folder.trueaxis(&["apply", "result/instrument.toml", "--data", file, "--out", "corrected.csv"]);

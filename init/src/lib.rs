@@ -7,6 +7,7 @@
 mod frame;
 pub mod links;
 mod look;
+mod machine_tools;
 mod observed;
 mod otherwise;
 mod placed;
@@ -64,6 +65,8 @@ pub struct Draft {
     start: Vec<(&'static str, String)>,
     /// Side quantities that effects may use.
     inputs: Vec<String>,
+    /// Whether the rows follow each other as they were taken, so that the sense of a motion is seen.
+    is_in_order: bool,
     /// What the user should know of it.
     pub remarks: Vec<String>,
 }

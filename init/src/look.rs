@@ -25,6 +25,8 @@ pub struct Look {
     pub(crate) latitude_deg: Option<f64>,
     /// What the file itself asks to be told of it.
     pub(crate) remarks: Vec<String>,
+    /// What it lacks to be read as the test of a machine tool that it seems to be.
+    pub(crate) lacks: Option<String>,
 }
 
 /// One of its columns.
@@ -96,7 +98,13 @@ impl Look {
             let texts = kept.texts().map_err(told)?;
             columns.push(Column::new(name, &texts));
         }
-        Ok(Self { file, columns, latitude_deg: reader.latitude_deg(), remarks: reader.remarks() })
+        Ok(Self {
+            file,
+            columns,
+            latitude_deg: reader.latitude_deg(),
+            remarks: reader.remarks(),
+            lacks: reader.lacks().map(str::to_owned),
+        })
     }
 
     /// The columns of some parts: those that hold numbers, or else those that only their names speak for.

@@ -16,6 +16,8 @@ pub enum Observed {
     Offset([Read; 2]),
     /// A point.
     Point([Read; 3]),
+    /// The distance of a point.
+    Range(Read),
     /// An unknown target that one column names, from the station that another names, if there are several.
     Target(String, Option<String>),
 }
@@ -116,7 +118,7 @@ impl Observed {
             Self::Direction([x, y, z]) => {
                 Some(x.si.iter().zip(&y.si).zip(&z.si).map(|((&x, &y), &z)| [x, y, z]).collect())
             }
-            Self::Azimuth(_) | Self::Offset(_) | Self::Point(_) | Self::Target(..) => None,
+            Self::Azimuth(_) | Self::Offset(_) | Self::Point(_) | Self::Range(_) | Self::Target(..) => None,
         }
     }
 }

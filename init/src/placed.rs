@@ -6,8 +6,6 @@ use tables::urdf::{Joint, Motion};
 use super::look::Read;
 
 /// The values of `base_x` to `base_rz` at which the places of the tip come nearest to the points, as the study writes them; none of too few rows.
-///
-/// Source: W. Kabsch, A discussion of the solution for the best rotation to relate two sets of vectors (1978).
 pub fn base(
     joints: &[&Joint],
     readings: &[(String, Read)],
@@ -27,35 +25,46 @@ pub fn base(
             tip(joints, of).translation.vector
         })
         .collect();
-    let measured: Vec<Vector3<f64>> =
-        (0..rows).map(|row| Vector3::new(points[0].si[row], points[1].si[row], points[2].si[row])).collect();
-    let mean = |all: &[Vector3<f64>]| all.iter().sum::<Vector3<f64>>() / rows as f64;
-    let (here, there) = (mean(&tips), mean(&measured));
+    let Some((shift, angles)) = pose(&tips, &vectors(points)) else { return Vec::new() };
+    let lengths = ["base_x", "base_y", "base_z"]
+        .into_iter()
+        .zip(shift.iter())
+        .map(|(name, size)| (name, format!("{size:.4} m")));
+    let angles = ["base_rx", "base_ry", "base_rz"].into_iter().zip(angles);
+    lengths.chain(angles.map(|(name, angle)| (name, format!("{angle:.5} rad")))).collect()
+}
+
+/// Points out of three columns, m.
+pub fn vectors(points: &[Read; 3]) -> Vec<Vector3<f64>> {
+    let [x, y, z] = points;
+    x.si.iter().zip(&y.si).zip(&z.si).map(|((&x, &y), &z)| Vector3::new(x, y, z)).collect()
+}
+
+/// The shift and the angles of Rx(a) Ry(b) Rz(c) that lay points over others, as many; none of points that are not finite.
+///
+/// Source: W. Kabsch, A discussion of the solution for the best rotation to relate two sets of vectors (1978).
+pub fn pose(from: &[Vector3<f64>], to: &[Vector3<f64>]) -> Option<(Vector3<f64>, [f64; 3])> {
+    let mean = |all: &[Vector3<f64>]| all.iter().sum::<Vector3<f64>>() / all.len() as f64;
+    let (here, there) = (mean(from), mean(to));
     let mut mixed = Matrix3::zeros();
-    for (tip, point) in tips.iter().zip(&measured) {
-        mixed += (point - there) * (tip - here).transpose();
+    for (from, to) in from.iter().zip(to) {
+        mixed += (to - there) * (from - here).transpose();
     }
     if !mixed.iter().all(|entry| entry.is_finite()) {
-        return Vec::new();
+        return None;
     }
     let svd = mixed.svd(true, true);
     let (Some(u), Some(v)) = (svd.u, svd.v_t) else { unreachable!("both were asked for") };
     // Of two mirrored solutions the one that is a rotation.
     let sign = (u * v).determinant().signum();
     let turn = u * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, sign)) * v;
-    let shift = there - turn * here;
     // Rx(a) Ry(b) Rz(c)
-    let [a, b, c] = [
+    let angles = [
         (-turn[(1, 2)]).atan2(turn[(2, 2)]),
         turn[(0, 2)].clamp(-1.0, 1.0).asin(),
         (-turn[(0, 1)]).atan2(turn[(0, 0)]),
     ];
-    let lengths = ["base_x", "base_y", "base_z"]
-        .into_iter()
-        .zip(shift.iter())
-        .map(|(name, size)| (name, format!("{size:.4} m")));
-    let angles = ["base_rx", "base_ry", "base_rz"].into_iter().zip([a, b, c]);
-    lengths.chain(angles.map(|(name, angle)| (name, format!("{angle:.5} rad")))).collect()
+    Some((there - turn * here, angles))
 }
 
 /// The frame of the tip at some readings.

@@ -342,6 +342,7 @@ pub fn draft(description: &Description, tip: Option<&str>, look: &Look) -> Resul
         estimate,
         start,
         inputs: Vec::new(),
+        is_in_order: false,
         remarks,
     })
 }

@@ -56,6 +56,7 @@ pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
         Observed::Direction(read) => ("direction", ["x", "y", "z"].into_iter().zip(read).collect()),
         Observed::Offset(read) => ("offset", ["cross", "along"].into_iter().zip(read).collect()),
         Observed::Point(read) => ("point", ["x", "y", "z"].into_iter().zip(read).collect()),
+        Observed::Range(read) => ("range", vec![("range", read)]),
         Observed::Target(..) => ("target", Vec::new()),
     };
     let _ = writeln!(text, "kind = \"{kind}\"");
@@ -86,11 +87,16 @@ pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
             let _ = writeln!(text, "start = {{ {} }}", starts.join(", "));
         }
     }
-    if !draft.inputs.is_empty() {
+    if !draft.inputs.is_empty() || draft.is_in_order {
         text.push_str("\n[search]\n");
+    }
+    if draft.is_in_order {
+        text.push_str("sequence = true # each row follows the one before: the direction of motion is used\n");
+    }
+    if !draft.inputs.is_empty() {
         let _ = writeln!(text, "inputs = {}", list(draft.inputs.iter().map(String::as_str)));
     }
-    let good = if matches!(draft.observed, Observed::Point(_) | Observed::Target(..)) {
+    let good = if matches!(draft.observed, Observed::Point(_) | Observed::Range(_) | Observed::Target(..)) {
         "0.1 mm"
     } else {
         "5 arcsec"

@@ -27,7 +27,7 @@ use crate::{output, source, table_files, terminal};
 /// run. Where the rows contradict a header, the study reads the column as the rows ask for, with a comment. Nothing is overwritten.
 ///
 /// Files of other programs are known by what they begin with: observations of TPOINT, models of MountWizzard4, points of AutoSlew, plate
-/// solves, GSI of Leica. What was read and assumed is printed.
+/// solves, GSI of Leica. So are tests of machine tools: ball bars, R-tests, plates and grids. What was read and assumed is printed.
 ///
 /// With --robot the declaration is made of a robot's description: its URDF, a table of Denavit and Hartenberg, or a calibration.conf of Universal
 /// Robots. Columns of the data are named like the joints. Without data only the declaration is written.

@@ -5,6 +5,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod machines;
 mod spoiled;
 
 use support::Folder;

@@ -3,7 +3,7 @@
 use crate::folder;
 
 /// The samples by name, and what spoils each.
-const FILES: [&str; 9] = [
+const FILES: [&str; 13] = [
     "radio-1.dat",
     "north.model",
     "asa-1.pox",
@@ -13,6 +13,10 @@ const FILES: [&str; 9] = [
     "control.gsi",
     "points-2.csv",
     "puma.dh.csv",
+    "bar-xy.csv",
+    "bar-zx.csv",
+    "r-test-ac.csv",
+    "grid-2.csv",
 ];
 
 /// Cut off, doubled, with letters and numbers that no reader expects: the command ends with an answer.

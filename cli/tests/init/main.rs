@@ -86,9 +86,19 @@ fn the_templates_are_listed() {
     let folder = Folder::new("init-list");
     let run = folder.trueaxis(&["init", "--list"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
-    for name in
-        ["alt-azimuth", "equatorial", "scanner", "total-station", "gimbal", "turntable", "arm", "encoder"]
-    {
+    for name in [
+        "alt-azimuth",
+        "equatorial",
+        "scanner",
+        "total-station",
+        "gimbal",
+        "turntable",
+        "arm",
+        "encoder",
+        "machine",
+        "ball-bar",
+        "r-test",
+    ] {
         assert!(run.stdout.contains(name), "{run}");
     }
     assert!(run.stdout.lines().all(|line| line.chars().count() <= 100), "{run}");

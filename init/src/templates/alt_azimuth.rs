@@ -35,6 +35,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         estimate: Vec::new(),
         start: frame.starts(["azimuth_index", "elevation_index"]),
         inputs: beside.names,
+        is_in_order: false,
         remarks,
     })
 }

@@ -59,6 +59,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         estimate: vec!["*", "base_*", "reflector_*"],
         start: Vec::new(),
         inputs: beside.names,
+        is_in_order: false,
         remarks,
     })
 }

@@ -45,6 +45,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         estimate: Vec::new(),
         start: frame.starts(["index", ""]),
         inputs: beside.names,
+        is_in_order: false,
         remarks,
     })
 }

@@ -58,6 +58,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         estimate: Vec::new(),
         start,
         inputs: beside.names,
+        is_in_order: false,
         remarks,
     })
 }

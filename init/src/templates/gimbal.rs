@@ -37,6 +37,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         estimate: Vec::new(),
         start: frame.starts(["pan_index", "tilt_index"]),
         inputs: beside.names,
+        is_in_order: false,
         remarks,
     })
 }

@@ -4,9 +4,12 @@
 
 mod alt_azimuth;
 mod arm;
+mod ball_bar;
 mod encoder;
 mod equatorial;
 mod gimbal;
+mod machine;
+mod r_test;
 mod scanner;
 mod total_station;
 mod turntable;
@@ -39,6 +42,9 @@ pub const TEMPLATES: &[Template] = &[
     turntable::TEMPLATE,
     arm::TEMPLATE,
     encoder::TEMPLATE,
+    machine::TEMPLATE,
+    ball_bar::TEMPLATE,
+    r_test::TEMPLATE,
 ];
 
 /// The template of a name.

@@ -50,6 +50,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         estimate: Vec::new(),
         start: Vec::new(),
         inputs: beside.names,
+        is_in_order: false,
         remarks,
     })
 }

@@ -69,6 +69,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         estimate,
         start: Vec::new(),
         inputs: beside.names,
+        is_in_order: false,
         remarks,
     })
 }

@@ -2,6 +2,7 @@
 
 use super::{Beside, Template, shown};
 use crate::look::Look;
+use crate::machine_tools;
 use crate::words::Part;
 use crate::{Draft, Frame, Observed};
 
@@ -15,6 +16,7 @@ pub const TEMPLATE: Template = Template {
         turns(Part::Turn) ^ turns(Part::Azimuth)
             && !others.into_iter().any(turns)
             && look.columns.iter().any(|column| column.part() == Some(Part::Z))
+            && !machine_tools::is_one(look)
     },
     draft,
 };
@@ -43,6 +45,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         estimate: Vec::new(),
         start: frame.starts(["index", "rise"]),
         inputs: beside.names,
+        is_in_order: false,
         remarks,
     })
 }

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | separated values | [`csv`] | nothing else |
 //! | plate solves as separated values | `plate_solves` | right ascensions and declinations of both sides in the header |
+//! | tests of machine tools as separated values | [`machine_tools`] | deviations beside positions or an angle in the header |
 //! | TPOINT observations | `tpoint` | its options, or the ending `.dat` |
 //! | GSI of Leica | `gsi` | its words |
 //! | models of MountWizzard4 | `mountwizard` | JSON with its keys |
@@ -20,6 +21,7 @@ mod gsi;
 mod header;
 mod held;
 mod input;
+pub mod machine_tools;
 pub mod memory;
 mod mountwizard;
 mod number;
@@ -189,6 +191,11 @@ pub trait TableReader: Send {
         Vec::new()
     }
 
+    /// What the file lacks to be read as the test of a machine tool that it seems to be.
+    fn lacks(&self) -> Option<&str> {
+        None
+    }
+
     /// The columns from which the format itself has computed others: they say nothing that those do not.
     fn behind(&self) -> &[usize] {
         &[]
@@ -281,7 +288,7 @@ fn text<'r>(
         None => {
             let comments = seen::comments(all.get_ref().0.get_ref());
             let table = csv::Reader::new(all, source, options)?;
-            plate_solves::seen(table, &comments, options)
+            Ok(machine_tools::seen(plate_solves::seen(table, &comments, options)?, &comments))
         }
     }
 }

@@ -11,7 +11,7 @@ use super::guess::Guess;
 use super::macros::Macros;
 use super::source::{Equation, Kind, equations};
 use super::{guess, prose};
-use crate::checker::{Checker, extended};
+use crate::checker::{Checker, Claim, Equality, Verdict, extended};
 use crate::latex::{self, PrintedSymbols};
 
 /// What the first line of a drawn-up file begins with.
@@ -78,6 +78,7 @@ pub fn draft(source: &str, kind: Kind, chain: &Chain, file: &str, chain_file: &s
             drawn.equation(&mut checker, equation);
         }
     }
+    drawn.again(&mut checker);
     let mut text = format!("{MARK} {file}. What follows `guess` was not in the paper: look it over.\n");
     let rotations =
         if drawn.turns_vectors { "rotations = \"vectors\"  # guess, by the claims that hold\n" } else { "" };
@@ -142,7 +143,7 @@ impl Drawn<'_> {
         }
         // `A = B = C`, and a condition behind a wide space.
         let sides = latex::equalities_of(&equation.text);
-        if sides.len() > 1 {
+        if sides.len() > 1 || sides.iter().any(|side| *side != equation.text) {
             let mut failed = Vec::new();
             for side in &sides {
                 if !self.whole(checker, equation, side)
@@ -159,6 +160,10 @@ impl Drawn<'_> {
         if let Some(text) = without_condition(&equation.text)
             && self.whole(checker, equation, &text)
         {
+            return;
+        }
+        let identity = self.identity(equation);
+        if identity == Some(true) {
             return;
         }
         let rows = latex::rows_of(&equation.text);
@@ -194,11 +199,55 @@ impl Drawn<'_> {
                 };
                 let reason = match self.undefined.iter().find(missing) {
                     Some((_, line, why)) => format!("{reason}; line {line} defines it, where {why}"),
+                    None if identity == Some(false) => OPEN.to_owned(),
                     None => reason,
                 };
                 self.unread.push((equation.line, shown, reason));
             }
         }
+    }
+
+    /// Equations with symbols that a later one defines are read once more.
+    fn again(&mut self, checker: &mut Checker<'_>) {
+        let is_known_now = |drawn: &Self, reason: &str| {
+            let symbol = reason.strip_prefix("unknown symbol `").and_then(|behind| behind.split('`').next());
+            symbol.is_some_and(|symbol| drawn.symbols.knows_symbol(symbol))
+        };
+        for _ in 0..ROUNDS {
+            let unread = std::mem::take(&mut self.unread);
+            let (late, unread): (Vec<_>, Vec<_>) =
+                unread.into_iter().partition(|(_, _, reason)| is_known_now(self, reason));
+            self.unread = unread;
+            if late.is_empty() {
+                break;
+            }
+            for (line, text, _) in late {
+                self.equation(checker, &Equation { line, text, is_display: true, place: 0..0 });
+            }
+        }
+        self.unread.sort_by_key(|(line, ..)| *line);
+    }
+
+    /// Two formulas that are one, both of them more than a name: `|\vec r|^2 = …`.
+    fn identity(&mut self, equation: &Equation) -> Option<bool> {
+        let text = &equation.text;
+        let places = latex::equal_sides(text);
+        let [first, second] = places.as_slice() else { return None };
+        let sides = [&text[first.clone()], &text[second.clone()]];
+        if !equation.is_display || latex::definition_of(text).is_some() {
+            return None;
+        }
+        let claimed = Equality::read(self.chain, &self.symbols, sides).ok()?;
+        let Ok(Verdict::Equality(verdict)) =
+            Checker::new(self.chain).check(&Claim::Equality(Box::new(claimed)))
+        else {
+            return None;
+        };
+        let holds = verdict.difference.is_zero();
+        if holds {
+            self.claim(equation, text, &Guess::identity());
+        }
+        Some(holds)
     }
 
     fn whole(&mut self, checker: &mut Checker<'_>, equation: &Equation, text: &str) -> bool {
@@ -279,6 +328,12 @@ impl Drawn<'_> {
         Ok(())
     }
 }
+
+/// Times that equations are read again for the sake of what a later one defines.
+const ROUNDS: usize = 3;
+
+/// What is said of an equation of two known formulas that are not one.
+const OPEN: &str = "its sides differ. Where they should agree at every pose, claim it by `equal`";
 
 /// A mistake and what to write instead.
 fn said(mistake: latex::Unreadable) -> String {

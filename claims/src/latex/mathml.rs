@@ -38,7 +38,7 @@ pub fn mathml(text: &str) -> Option<String> {
     if has_sentence(text) {
         return None;
     }
-    let tokens = left::tokens(text).ok().filter(|tokens| tokens.len() <= LONGEST)?;
+    let tokens = left::as_set(text).ok().filter(|tokens| tokens.len() <= LONGEST)?;
     let mut writer = Writer { text, tokens: &tokens, at: 0, depth: 0 };
     let rows = writer.table(&|_| false)?;
     let inside = match rows.as_slice() {

@@ -26,6 +26,7 @@ mod parser;
 mod printed;
 pub mod program;
 mod signs;
+mod spaced;
 mod token;
 mod typed;
 mod unknown;

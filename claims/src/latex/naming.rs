@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::glyph::{self, Glyph};
 use super::layout::Row;
-use super::parser::{Value, is_fraction, solved};
+use super::parser::{Value, is_fraction, is_readable, solved};
 use super::printed::{Beside, PrintedSymbols};
 use super::token::{Kind, Token};
 use super::{Unreadable, more_than_a_name};
@@ -125,7 +125,9 @@ impl Parts {
                 continue;
             }
             match &token.kind {
-                Kind::Mark('+' | '-') => parts.has_sum = true,
+                // A sign in front of everything makes no sum.
+                Kind::Mark('+' | '-') if at > 0 => parts.has_sum = true,
+                Kind::Mark('+' | '-') => parts.has_amounts = true,
                 Kind::Command(bar) if BARS.contains(&bar.as_str()) => {}
                 Kind::Digit(_) | Kind::Mark('/') | Kind::Command(_) => parts.has_amounts = true,
                 _ => {}
@@ -184,13 +186,24 @@ impl Parts {
             None if is_difference => 0,
             None => group_length(&side[at..], ['(', ')']),
         };
-        self.unknown.push(Part { tokens: start..at + length, is_difference });
+        let tokens = start..at + length;
+        // `R_z(\psi)`, `\mathbf{I}`, `c_1`: what everybody knows.
+        if !is_difference && is_readable(text, &side[tokens.clone()], symbols) {
+            self.known.push(tokens);
+        } else {
+            self.unknown.push(Part { tokens, is_difference });
+        }
         at + length
     }
 
     /// Whether a side is a name and nothing else: one symbol, or letters that nobody knows.
     fn is_bare(&self, side: &[Token]) -> bool {
-        let is_whole = |tokens: &Range<usize>| *tokens == (0..side.len());
+        let has_change = self.unknown.iter().any(|part| part.is_difference);
+        let is_whole = |tokens: &Range<usize>| {
+            let length = group_length(&side[tokens.end..], ['(', ')']);
+            tokens.start == 0
+                && (tokens.end == side.len() || (!has_change && tokens.end + length == side.len()))
+        };
         let is_nothing = self.unknown.is_empty() && self.known.is_empty();
         let is_digit = side.len() == 1 && matches!(side[0].kind, Kind::Digit(_));
         self.known.iter().any(is_whole)

@@ -231,7 +231,7 @@ impl PrintedSymbols {
         self.entries.values().find(|entry| entry.printed == text)
     }
 
-    /// Whether a text is one printed symbol.
+    /// Whether a text is one printed symbol, in the type that it is set in: `\mathbf{r}` is none where only `r` is known.
     pub(crate) fn prints(&self, text: &str) -> bool {
         symbol_key(text).is_ok_and(|key| self.entries.contains_key(&key))
     }

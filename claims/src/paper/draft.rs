@@ -1,6 +1,6 @@
 //! A claims file drawn up from a paper, its guesses marked, and what could not be read.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 use model_core::expr::Expr;
@@ -55,6 +55,8 @@ pub fn draft(source: &str, kind: Kind, chain: &Chain, file: &str, chain_file: &s
         claims: String::new(),
         count: 0,
         unread: Vec::new(),
+        defined: Vec::new(),
+        claimed: BTreeSet::new(),
         names: BTreeMap::new(),
         undefined: Vec::new(),
         turns_vectors: false,
@@ -84,7 +86,18 @@ pub fn draft(source: &str, kind: Kind, chain: &Chain, file: &str, chain_file: &s
         if drawn.turns_vectors { "rotations = \"vectors\"  # guess, by the claims that hold\n" } else { "" };
     let _ = writeln!(text, "chain = {}\n{rotations}\n[symbols]\n{}", quoted(chain_file), drawn.table);
     text.push_str(&drawn.claims);
-    Draft { text, claims: drawn.count, unread: drawn.unread, chain: chain_of(source) }
+    let unread = drawn.unread.into_iter().map(|unread| (unread.line, unread.text, unread.reason)).collect();
+    Draft { text, claims: drawn.count, unread, chain: chain_of(source) }
+}
+
+/// An equation without a claim.
+#[derive(Debug, Clone)]
+struct Unread {
+    line: usize,
+    text: String,
+    reason: String,
+    /// How many symbols were defined when it was read.
+    known: usize,
 }
 
 struct Drawn<'a> {
@@ -93,7 +106,11 @@ struct Drawn<'a> {
     table: String,
     claims: String,
     count: usize,
-    unread: Vec<(usize, String, String)>,
+    unread: Vec<Unread>,
+    /// Symbols that the paper defines, in the order in which their definitions were read.
+    defined: Vec<String>,
+    /// What is claimed: line and equation.
+    claimed: BTreeSet<(usize, String)>,
     /// What names on the left of `=` stood for in claims so far.
     names: BTreeMap<String, (ObservableId, usize)>,
     /// Symbols whose definitions could not be read: the line, and why.
@@ -149,11 +166,13 @@ impl Drawn<'_> {
                 if !self.whole(checker, equation, side)
                     && let Err(why) = self.definition(equation, side)
                 {
-                    failed.push((equation.line, side.clone(), why));
+                    failed.push((side.clone(), why));
                 }
             }
             if failed.len() < sides.len() {
-                self.unread.extend(failed);
+                for (side, why) in failed {
+                    self.unread(equation.line, side, why);
+                }
                 return;
             }
         }
@@ -193,7 +212,7 @@ impl Drawn<'_> {
         {
             // An aside such as `$n = 5$` is no statement about the chain.
             if equation.is_display || reason.starts_with("differs") {
-                let shown = equation.text.split_whitespace().collect::<Vec<_>>().join(" ");
+                let shown = on_one_line(&equation.text);
                 let missing = |(name, line, _): &&(String, usize, String)| {
                     *line != equation.line && reason.contains(&format!("unknown symbol `{name}`"))
                 };
@@ -202,30 +221,32 @@ impl Drawn<'_> {
                     None if identity == Some(false) => OPEN.to_owned(),
                     None => reason,
                 };
-                self.unread.push((equation.line, shown, reason));
+                self.unread(equation.line, shown, reason);
             }
         }
     }
 
     /// Equations with symbols that a later one defines are read once more.
     fn again(&mut self, checker: &mut Checker<'_>) {
-        let is_known_now = |drawn: &Self, reason: &str| {
-            let symbol = reason.strip_prefix("unknown symbol `").and_then(|behind| behind.split('`').next());
-            symbol.is_some_and(|symbol| drawn.symbols.knows_symbol(symbol))
-        };
         for _ in 0..ROUNDS {
-            let unread = std::mem::take(&mut self.unread);
-            let (late, unread): (Vec<_>, Vec<_>) =
-                unread.into_iter().partition(|(_, _, reason)| is_known_now(self, reason));
+            let is_late = |unread: &Unread| {
+                let printed = latex::symbols_in(&unread.text);
+                self.defined[unread.known..].iter().any(|symbol| printed.contains(symbol))
+            };
+            let (late, unread): (Vec<Unread>, Vec<Unread>) = self.unread.iter().cloned().partition(is_late);
             self.unread = unread;
             if late.is_empty() {
                 break;
             }
-            for (line, text, _) in late {
+            for Unread { line, text, .. } in late {
                 self.equation(checker, &Equation { line, text, is_display: true, place: 0..0 });
             }
         }
-        self.unread.sort_by_key(|(line, ..)| *line);
+        self.unread.sort_by_key(|unread| unread.line);
+    }
+
+    fn unread(&mut self, line: usize, text: String, reason: String) {
+        self.unread.push(Unread { line, text, reason, known: self.defined.len() });
     }
 
     /// Two formulas that are one, both of them more than a name: `|\vec r|^2 = …`.
@@ -273,6 +294,9 @@ impl Drawn<'_> {
     }
 
     fn claim(&mut self, equation: &Equation, text: &str, guess: &Guess) {
+        if !self.claimed.insert((equation.line, on_one_line(text))) {
+            return;
+        }
         self.count += 1;
         self.turns_vectors |= guess.turned;
         if let Some((observable, only)) = guess.of {
@@ -301,11 +325,16 @@ impl Drawn<'_> {
             let read = latex::read_matrix(row, &self.symbols.reading(&[row]));
             return Err(read.map_or_else(said, |_| "agrees with no statement about the chain".to_owned()));
         };
-        if self.symbols.knows_symbol(&name) {
-            return Err("agrees with no statement about the chain".to_owned());
+        let unknown = || Err("agrees with no statement about the chain".to_owned());
+        if self.symbols.prints(&name) {
+            return unknown();
         }
         let symbols = self.symbols.reading(&[&formula]);
         let matrix = latex::read_matrix(&formula, &symbols).map_err(said)?;
+        // `\mathbf{r}` may be a vector beside the length `r`.
+        if matrix.entries.len() == 1 && self.symbols.knows_symbol(&name) {
+            return unknown();
+        }
         let known = |entry: &Expr<std::ops::Range<usize>>| {
             entry.names().iter().all(|(name, _)| self.chain.find_symbol(name).is_some())
         };
@@ -317,6 +346,7 @@ impl Drawn<'_> {
             entries => self.symbols.define_matrix(&name, matrix.columns, entries),
         };
         defined.map_err(|mistake| mistake.message)?;
+        self.defined.push(name.clone());
         let _ = writeln!(
             self.table,
             "{} = {}  # defined in line {}",
@@ -338,6 +368,10 @@ const OPEN: &str = "its sides differ. Where they should agree at every pose, cla
 /// A mistake and what to write instead.
 fn said(mistake: latex::Unreadable) -> String {
     mistake.help.map_or(mistake.message.clone(), |help| format!("{}; {help}", mistake.message))
+}
+
+fn on_one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// An equation without what stands behind its last wide space: `\qquad k = 1, 2`.

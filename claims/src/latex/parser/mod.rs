@@ -315,6 +315,13 @@ impl<'a> Parser<'a> {
     }
 }
 
+/// Whether tokens are an amount or a matrix that is known.
+pub(super) fn is_readable(text: &str, tokens: &[Token], symbols: &PrintedSymbols) -> bool {
+    let end = tokens.last().map_or(0, |token| token.place.end);
+    let mut parser = Parser::new(text, tokens, end..end, symbols);
+    parser.formula().is_ok() && parser.at == tokens.len()
+}
+
 pub(super) fn is_fraction(name: &str) -> bool {
     FRACTIONS.contains(&name)
 }

@@ -66,7 +66,9 @@ fn alone(left: &Formula, name: &str, right: Formula) -> Option<Formula> {
         return None;
     }
     let place = right.place.clone();
-    let value = multiplied(added(right, negated(rest)), below);
+    let value = multiplied(added(right, negated(rest)), below.map_place(&|_| place.clone()));
+    // What a factor is printed in is the formula.
+    let above = above.map_place(&|_| place.clone());
     Some(match above.node {
         Node::Number(number) if number == Rational::ONE => value,
         Node::Neg(inside) if is_number(&inside, &Rational::ONE) => negated(value),

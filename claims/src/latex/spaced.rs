@@ -1,6 +1,5 @@
-//! Vectors whose entries are parted by spaces, `[x\\ y\\ z]^T`: the transposition says that it is no product.
+//! Vectors whose entries are parted by spaces, `[x\ y\ z]^T`: the transposition says that it is no product.
 
-use super::lookup::After;
 use super::token::{Kind, Token};
 
 /// Spaces that part entries, wide ones first; a thin one does where there is no other.
@@ -62,12 +61,11 @@ fn is_transposed(behind: &[Token]) -> bool {
         | [Token { kind: Kind::Mark('^'), .. }, upper, ..] => upper,
         _ => return false,
     };
-    let text = match &upper.kind {
-        Kind::Word(word) => word.clone(),
-        Kind::Command(command) => format!("\\{command}"),
-        _ => return false,
-    };
-    After::of(&text) == Some(After::Transposed)
+    match &upper.kind {
+        Kind::Word(word) => word == "T",
+        Kind::Command(command) => matches!(command.as_str(), "top" | "intercal"),
+        _ => false,
+    }
 }
 
 /// Before which tokens an entry begins behind a space.

@@ -180,7 +180,7 @@ impl Parts {
             return start + found.tokens;
         }
         // What the name is a function of.
-        let is_difference = glyphs.len() > 1 || is_error(&glyphs[0]);
+        let is_difference = glyphs.iter().any(is_mark) || is_error(&glyphs[0]);
         let length = match glyph::arguments(&side[at..]) {
             Some((_, length)) => length,
             None if is_difference => 0,

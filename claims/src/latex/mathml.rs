@@ -17,6 +17,13 @@ const UPRIGHT: [&str; 18] = [
     "max", "min", "lim", "rank", "atan",
 ];
 
+/// The space beside a function.
+const THIN: &str = "<mspace width=\"0.17em\"></mspace>";
+
+fn is_function(kind: &Kind) -> bool {
+    matches!(kind, Kind::Command(name) if FUNCTIONS.contains(&name.as_str()) || UPRIGHT.contains(&name.as_str()))
+}
+
 /// Operators with their limits above and below.
 const LARGE: [(&str, &str); 4] = [("sum", "∑"), ("prod", "∏"), ("int", "∫"), ("oint", "∮")];
 
@@ -105,7 +112,16 @@ impl<'a> Writer<'a> {
             if ends(&token.kind) {
                 break;
             }
+            // A function stands apart from what it multiplies, and from an angle without brackets.
+            let is_function = is_function(&token.kind);
+            if is_function && out.len() > "<mrow>".len() && !out.ends_with("</mo>") {
+                out.push_str(THIN);
+            }
             out.push_str(&self.scripted()?);
+            let is_angle = |kind: &Kind| !matches!(kind, Kind::Mark(_)) && !ends(kind);
+            if is_function && self.peek().is_some_and(|next| is_angle(&next.kind)) {
+                out.push_str(THIN);
+            }
         }
         out.push_str("</mrow>");
         Some(out)
@@ -315,7 +331,7 @@ impl<'a> Writer<'a> {
     }
 
     fn command(&mut self, token: &Token, command: &str) -> Option<String> {
-        if FUNCTIONS.contains(&command) || UPRIGHT.contains(&command) {
+        if is_function(&token.kind) {
             return Some(format!("<mi>{command}</mi>"));
         }
         if let Some((_, sign)) = LARGE.iter().find(|(name, _)| *name == command) {

@@ -14,6 +14,9 @@ use model_core::mistake::Mistake;
 /// Letters that make the one behind them a difference.
 const DIFFERENCES: [&str; 4] = ["\\Delta", "\\delta", "d", "\\mathrm{d}"];
 
+/// Indices of what is wanted, and not of what is observed.
+const AS_DESIGNED: [&str; 9] = ["0", "n", "nom", "nominal", "ref", "d", "des", "c", "cmd"];
+
 /// Bars around a name say that it is a length.
 const BARS: [&str; 6] = ["vert", "lvert", "rvert", "Vert", "lVert", "rVert"];
 
@@ -214,15 +217,17 @@ impl Parts {
     /// `x_a - x`: a change, of two letters that differ in their indices.
     fn is_change(&self, side: &[Token]) -> bool {
         let ([is], [was]) = (self.unknown.as_slice(), self.known.as_slice()) else { return false };
-        let base = |tokens: &Range<usize>| match glyph::read(&side[tokens.clone()]) {
-            Ok(Some(read)) if read.tokens == tokens.len() => Some(bare(&read.glyph.base).to_owned()),
+        let letter = |tokens: &Range<usize>| match glyph::read(&side[tokens.clone()]) {
+            Ok(Some(read)) if read.tokens == tokens.len() => Some(read.glyph),
             _ => None,
         };
+        let (Some(observed), Some(designed)) = (letter(&is.tokens), letter(was)) else { return false };
         is.tokens.start == 0
             && side.get(is.tokens.end).is_some_and(|token| token.kind == Kind::Mark('-'))
             && was.start == is.tokens.end + 1
             && was.end == side.len()
-            && base(&is.tokens).is_some_and(|letter| base(was).as_ref() == Some(&letter))
+            && bare(&observed.base) == bare(&designed.base)
+            && !AS_DESIGNED.contains(&observed.lower.as_str())
     }
 
     /// Whether the name is multiplied by the cosine of another letter, and by nothing else.

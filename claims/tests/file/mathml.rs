@@ -107,7 +107,11 @@ fn a_page_of_verdicts_is_well_formed_whatever_it_shows() {
         remarks: vec![vec![Piece::Words(hostile.to_owned()), formula(r"-\cos \alpha")]],
     };
     let page = as_table(hostile, &[line], Format::Html);
-    assert!(page.contains("<mfrac>") && page.contains("<mo>−</mo><mi>cos</mi><mi>α</mi>"), "{page}");
+    assert!(
+        page.contains("<mfrac>")
+            && page.contains("<mo>−</mo><mi>cos</mi><mspace width=\"0.17em\"></mspace><mi>α</mi>"),
+        "{page}"
+    );
     assert!(!page.contains("<script") && !page.contains("<img") && !page.contains("<b>"), "{page}");
     assert!(!page.contains("http"), "{page}");
     let body = page.split_once("</head>").unwrap().1.replace("<br>", "");

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::commands::TYPEFACES;
 use super::glyph::{self, Glyph};
 use super::layout;
 use super::left;
@@ -142,6 +143,12 @@ fn written_place(text: &str, place: Range<usize>) -> Range<usize> {
     while count(start, end, '{') > count(start, end, '}') {
         let Some(close) = text[end..].find('}') else { break };
         end += close + 1;
+    }
+    // `\mathbf p`: what says that a letter is bold stands before its token.
+    let before = text[..start].trim_end();
+    let name = before.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+    if name.ends_with('\\') && TYPEFACES.contains(&&before[name.len()..]) {
+        start = name.len() - 1;
     }
     start..end
 }

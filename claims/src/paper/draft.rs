@@ -382,9 +382,17 @@ fn without_condition(text: &str) -> Option<String> {
     is_condition.then(|| format!("{}{}", &text[..at], &text[end..]))
 }
 
-/// A text as a key of TOML.
+/// A text as a key of TOML, which takes one line.
 fn key(text: &str) -> String {
-    if text.contains(['\'', '\n']) { Value::String(text.to_owned()).to_string() } else { format!("'{text}'") }
+    if !text.contains(|c: char| c == '\'' || c.is_control()) {
+        return format!("'{text}'");
+    }
+    let escaped = text.chars().map(|letter| match letter {
+        '"' | '\\' => format!("\\{letter}"),
+        letter if letter.is_control() => format!("\\u{:04X}", u32::from(letter)),
+        letter => letter.to_string(),
+    });
+    format!("\"{}\"", escaped.collect::<String>())
 }
 
 /// A text as a string of TOML.

@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use super::commands::{
     BOLD, DISTANCES, FUNCTIONS, NOTES, RAMP, RELATIONS, SIZES, SWITCHES, TYPEFACES, WIDE, WITHOUT_MEANING,
-    is_inverse,
+    is_inverse, other_word,
 };
 use super::{Unreadable, typed};
 use model_core::mistake::Mistake;
@@ -219,7 +219,7 @@ impl Lexer<'_> {
             "prime" => self.push(Kind::Mark('\''), start),
             "circ" | "textdegree" => self.push(Kind::Command("degree".to_owned()), start),
             "cr" | "newline" => self.push(Kind::Row, start),
-            _ => self.push(Kind::Command(name), start),
+            _ => self.push(Kind::Command(other_word(&name).map_or(name, str::to_owned)), start),
         }
         Ok(())
     }
@@ -369,7 +369,10 @@ impl Lexer<'_> {
             None if FUNCTIONS.contains(&word.as_str()) || word == RAMP || is_inverse(&word) => {
                 Kind::Command(word)
             }
-            None => Kind::Word(word),
+            None => match other_word(&word) {
+                Some(function) => Kind::Command(function.to_owned()),
+                None => Kind::Word(word),
+            },
         };
         self.at += 1;
         self.push(kind, start);

@@ -42,7 +42,7 @@ const fn report(study: &'static str, words: &'static str) -> Drawn {
 }
 
 /// Pages, and what draws the picture of each: `docs/src/PAGE.svg`.
-const PICTURES: [(&str, Drawn); 52] = [
+const PICTURES: [(&str, Drawn); 53] = [
     ("algebra/canonical-form", budget("examples/turntable/turntable.chain", "azimuth=t", "pointing")),
     (
         "algebra/exact-difference",
@@ -150,6 +150,7 @@ const PICTURES: [(&str, Drawn); 52] = [
     ("diagnosis/README", report(COURSE, "Lengthwise residual over elevation")),
     ("diagnosis/blind", report("examples/eye-in-hand/marks.toml", "Rx of fore")),
     ("diagnosis/evaluation", report("examples/mobile-lidar/study.toml", "Held-out data")),
+    ("diagnosis/misread", report(COURSE, "Sideways residual over elevation")),
     ("diagnosis/own", report(TARGETS, "Rz of alidade")),
     ("diagnosis/thresholds", report(WALLS, "Held-out data")),
     ("gallery/alt-azimuth", budget("examples/gallery/alt-azimuth.chain", OVER_THE_SKY, "sight")),

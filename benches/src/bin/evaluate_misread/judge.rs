@@ -44,6 +44,20 @@ impl Answer {
         Self::Silent,
         Self::Hidden,
     ];
+
+    /// What the page calls it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::First => "first",
+            Self::Among => "among",
+            Self::Part => "one of two",
+            Self::Other => "another",
+            Self::Refused => "refused",
+            Self::Withheld => "withheld",
+            Self::Silent => "silent",
+            Self::Hidden => "cannot be seen",
+        }
+    }
 }
 
 /// How much likelier the data must be without the mistake before silence counts: a ratio of 20.

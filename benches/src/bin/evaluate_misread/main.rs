@@ -75,15 +75,13 @@ fn numbers(seed: u64, case: usize, run: usize) -> Random {
 }
 
 fn spoiled(asked: &Asked, kept: &Kept) -> Result<String, Failure> {
-    let mut text =
-        "| mistake | instrument | rows | runs | named first | among those named | one of two named | another named | refused | withheld | silent | cannot be seen |\n\
-         |---|---|---|---|---|---|---|---|---|---|---|---|\n"
-            .to_owned();
+    let mut table = "| mistake | instrument | 12 rows | 50 rows | 300 rows |\n|---|---|---|---|---|\n".to_owned();
     let mut sums = [0_usize; 8];
     for (case, trap) in TRAPS.iter().enumerate() {
         let is_asked =
             asked.traps.is_empty() || asked.traps.iter().any(|part| trap.name.contains(part.as_str()));
         for instrument in INSTRUMENTS.iter().filter(|own| is_asked && (trap.on)(own)) {
+            let mut line = format!("| {} | {} |", trap.name, instrument.name);
             for rows in ROWS {
                 let run = |run: usize| {
                     let name = format!("{}/{}/{}/{rows}/{run}", asked.seed, trap.name, instrument.name);
@@ -104,23 +102,32 @@ fn spoiled(asked: &Asked, kept: &Kept) -> Result<String, Failure> {
                 let of = |kind: &Answer| answers.iter().filter(|own| **own == format!("{kind:?}")).count();
                 let counts = Answer::ALL.each_ref().map(of);
                 sums.iter_mut().zip(counts).for_each(|(sum, count)| *sum += count);
-                let cells = counts.map(|count| count.to_string()).join(" | ");
-                let line =
-                    format!("| {} | {} | {rows} | {} | {cells} |", trap.name, instrument.name, asked.runs);
-                println!("{line}");
-                let _ = writeln!(text, "{line}");
+                let told = Answer::ALL.iter().zip(counts).filter(|(_, count)| *count > 0);
+                let cell: Vec<String> = told
+                    .map(|(answer, count)| match asked.runs {
+                        1 => answer.words().to_owned(),
+                        _ => format!("{count} {}", answer.words()),
+                    })
+                    .collect();
+                let _ = write!(line, " {} |", cell.join(", "));
             }
+            println!("{line}");
+            let _ = writeln!(table, "{line}");
         }
     }
     let all: usize = sums.iter().sum();
-    let _ = writeln!(text, "| **all** | | | {all} | {} |", sums.map(|sum| format!("**{sum}**")).join(" | "));
-    println!("{}", text.lines().last().unwrap_or_default());
-    Ok(text)
+    let mut text = "| answer | files | share |\n|---|---|---|\n".to_owned();
+    for (answer, sum) in Answer::ALL.iter().zip(sums) {
+        let share = 100.0 * sum as f64 / all.max(1) as f64;
+        let _ = writeln!(text, "| {} | {sum} | {share:.1} % |", answer.words());
+    }
+    println!("{text}");
+    Ok(format!("## Mistakes\n\n{text}\n{table}"))
 }
 
 fn clean(asked: &Asked, kept: &Kept) -> Result<String, Failure> {
     let mut text =
-        "\n| nothing is wrong | runs | something named | withheld |\n|---|---|---|---|\n".to_owned();
+        "\n## Files in which nothing is wrong\n\n| what is unusual | files | something named | withheld |\n|---|---|---|---|\n".to_owned();
     for (case, (habit, words)) in HABITS.iter().enumerate() {
         let runs = asked.clean / HABITS.len();
         let run = |run: usize| {
@@ -153,27 +160,7 @@ fn clean(asked: &Asked, kept: &Kept) -> Result<String, Failure> {
 }
 
 fn page(asked: &Asked, text: &str) -> String {
-    format!(
-        "\
-# How often misread columns are told
-
-<!-- Written by `cargo run --release -p trueaxis-benches --bin evaluate_misread -- --runs {} --clean {} --seed {} --page FILE` -->
-
-Files of seven instruments are simulated, and one mistake is made in each. `calibrate` is asked what it says of the columns, before
-it looks for any effect. The simulators share no code with the program.
-
-- *named first*: the mistake is the first reading that is told. *among those named*: several explain the data alike, and it is one.
-- *one of two named*: two mistakes were made, and one is told. Where the data can show the other, it is told once the first is mended.
-- *another named*: what is told is no mistake that was made.
-- *refused*: a number of the file is impossible, and `calibrate` says in which row.
-- *withheld*: nothing is named, and the correction is withheld, because an error or the residual is too large to be one.
-- *silent*: nothing is said, though the file without the mistake fits better by a likelihood ratio of more than 20.
-- *cannot be seen*: nothing is said, and the file fits as well as without the mistake.
-
-The second table has files in which nothing is wrong; whatever is named there is a false alarm. Seeds below 1,000,000 were used while
-the readings were made; this page is of seeds from {} on.
-
-{text}",
-        asked.runs, asked.clean, asked.seed, asked.seed
-    )
+    let Asked { runs, clean, seed, .. } = asked;
+    let plural = if *runs == 1 { "" } else { "s" };
+    format!(include_str!("page.md"), runs = runs, clean = clean, seed = seed, plural = plural, text = text)
 }

@@ -45,7 +45,8 @@ pub(super) const STATES_RATIO_FEW: f64 = 0.1;
 pub(super) const STATES_SCATTERED: f64 = 0.5;
 /// An instrument is calibrated over this much of a joint, rad; a unit by which it moved less is rarer by the logarithm of the share.
 pub(super) const TRAVEL_RAD: f64 = PI / 3.0;
-/// Two mistakes at once are asked where the study's own reading and the best single mistake each leave more than this share of what was measured, or an error is beyond its limit.
+/// Two mistakes at once are asked where the study's own reading and the best single mistake each leave more than this share of what was
+/// measured, or an error beyond its limit.
 pub(super) const ROUGH_SHARE: f64 = 0.01;
 /// An axis is about so far from where the declaration puts it, rad; lengths and tools, as shares of the reach.
 pub(super) const TILT_RAD: f64 = PI / 180.0;

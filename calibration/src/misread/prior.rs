@@ -48,7 +48,10 @@ impl Priors {
                 Part::Tool => (TOOL_SHARE * reach_m, f64::INFINITY),
                 Part::Free => return None,
             };
-            Some(Scaled { error, scale, limit })
+            // A study that takes larger values for plausible expects larger ones.
+            let own = plan.plausible.iter().find(|(limited, _)| *limited == error).map(|(_, own)| *own);
+            let (own, raised) = own.map_or((limit, 1.0), |own| (own, (own / limit).max(1.0)));
+            Some(Scaled { error, scale: scale * raised, limit: own })
         };
         Self { scales: estimated(plan).filter_map(scale).collect() }
     }

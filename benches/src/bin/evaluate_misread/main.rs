@@ -75,7 +75,8 @@ fn numbers(seed: u64, case: usize, run: usize) -> Random {
 }
 
 fn spoiled(asked: &Asked, kept: &Kept) -> Result<String, Failure> {
-    let mut table = "| mistake | instrument | 12 rows | 50 rows | 300 rows |\n|---|---|---|---|---|\n".to_owned();
+    let mut table =
+        "| mistake | instrument | 12 rows | 50 rows | 300 rows |\n|---|---|---|---|---|\n".to_owned();
     let mut sums = [0_usize; 8];
     for (case, trap) in TRAPS.iter().enumerate() {
         let is_asked =

@@ -1,7 +1,7 @@
 //! `trueaxis init`: a chain and a study to start from, out of a table of data.
 
 use std::fs::{self, File};
-use std::io::{self, Read as _};
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use init::robot::Description;

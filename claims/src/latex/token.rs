@@ -345,6 +345,16 @@ impl Lexer<'_> {
         is_word
     }
 
+    /// Whether what follows is an index: there several words are a name, `s_{\text{cross elevation}}`, and no remark.
+    fn is_index(&self) -> bool {
+        let kinds: Vec<&Kind> = self.tokens.iter().rev().take(2).map(|token| &token.kind).collect();
+        let is_mark = |kind: Option<&&Kind>| matches!(kind, Some(Kind::Mark('_' | '^')));
+        match kinds.first() {
+            Some(Kind::Mark('{')) => is_mark(kinds.get(1)),
+            first => is_mark(first),
+        }
+    }
+
     /// Letters up to the end of the group, as one symbol.
     fn word(&mut self, start: usize) -> bool {
         let word_start = self.at;
@@ -355,7 +365,7 @@ impl Lexer<'_> {
             self.skip_while(|c| c.is_alphanumeric() || c == ' ');
         }
         let word = self.text[word_start..self.at].trim().replace(r"\_", "_");
-        let is_name = word.starts_with(char::is_alphabetic) && !word.contains(' ');
+        let is_name = word.starts_with(char::is_alphabetic) && (self.is_index() || !word.contains(' '));
         if self.peek() != Some('}') || !is_name {
             return false;
         }

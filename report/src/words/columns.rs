@@ -86,7 +86,7 @@ fn step(suspect: &Suspect) -> Step {
     } else if matches!(suspect.reading, Reading::Frame { .. }) {
         text.push_str(
             "Look at how the measured directions were computed. A wrong clock, time zone or longitude turns them about the celestial pole, a \
-             wrong latitude about the line from east to west. If the instrument stands turned like this, write the turn into the declaration \
+             wrong latitude about the line from east to west. If the instrument itself is turned like this, write the turn into the declaration \
              as a position of its first body. ",
         );
     } else if suspect.lines.is_empty() && suspect.headings.is_empty() {
@@ -208,7 +208,7 @@ fn sentence(reading: &Reading) -> String {
         }
         Reading::Frame { by_deg, axis: [x, y, z] } => {
             format!(
-                "The measured directions stand in another frame. They fit once they are turned by {by_deg:.2}° about the axis \
+                "The measured directions are those of another frame. They fit once they are turned by {by_deg:.2}° about the axis \
                  ({x:.3}, {y:.3}, {z:.3}).{}",
                 hours(*by_deg)
             )

@@ -57,10 +57,12 @@ impl Priors {
     }
 
     /// What errors of this size cost, nats: a t distribution with three degrees of freedom, against its value at zero; and as much again as
-    /// rules a reading out where one is beyond its limit.
-    pub fn penalty(&self, values: &[f64]) -> f64 {
-        let cost = |own: &Scaled| 2.0 * ((values[own.error.index()] / own.scale).powi(2) / 3.0).ln_1p();
-        let beyond = if self.is_beyond(values) { BEYOND } else { 0.0 };
+    /// rules a reading out where one is surely beyond its limit.
+    pub fn penalty(&self, fit: &FitResult) -> f64 {
+        let value = |own: &Scaled| fit.values[own.error.index()];
+        let cost = |own: &Scaled| 2.0 * ((value(own) / own.scale).powi(2) / 3.0).ln_1p();
+        let is_surely_beyond = |own: &Scaled| is_surely(fit, own.error, value(own).abs() - own.limit);
+        let beyond = if self.scales.iter().any(is_surely_beyond) { BEYOND } else { 0.0 };
         self.scales.iter().map(cost).sum::<f64>() + beyond
     }
 
@@ -89,7 +91,14 @@ pub enum Implausible {
     Residual {
         /// RMS of the residual, SI.
         rms: f64,
-        /// The size of what was measured, SI: a radian of directions, the usual distance from their middle of points.
+        /// Whether an error is by so much beyond a limit, and its uncertainty is less. A value that these data do not determine is no value.
+fn is_surely(fit: &FitResult, error: SymbolId, beyond: f64) -> bool {
+    let at = fit.parameters.iter().position(|id| *id == error);
+    let is_determined = at.and_then(|at| fit.separable.get(at)).copied().unwrap_or(false);
+    is_determined && fit.standard_uncertainty(error).is_some_and(|own| own < beyond)
+}
+
+/// The size of what was measured, SI: a radian of directions, the usual distance from their middle of points.
         size: f64,
         /// Their unit.
         unit: SiUnit,
@@ -112,7 +121,7 @@ pub fn implausible(
     }
     let reach_m = reach_m(chain, observations);
     let mut found = Vec::new();
-    for (at, &id) in fit.parameters.iter().enumerate() {
+    for &id in &fit.parameters {
         let symbol = chain.symbol(id);
         let own = limits.iter().find(|(limited, _)| *limited == id).map(|(_, limit)| *limit);
         let limit = own.or_else(|| match part(chain, observations, id) {
@@ -122,10 +131,7 @@ pub fn implausible(
         });
         let value = fit.values[id.index()];
         let Some(limit) = limit.filter(|limit| value.abs() > *limit) else { continue };
-        // A value that these data do not determine is no value.
-        let is_determined = fit.separable.get(at).copied().unwrap_or(false)
-            && fit.standard_uncertainty(id).is_some_and(|own| own < value.abs() - limit);
-        if is_determined {
+        if is_surely(fit, id, value.abs() - limit) {
             let unit = symbol.quantity.into();
             found.push(Implausible::Error { name: symbol.name.clone(), value, limit, unit });
         }

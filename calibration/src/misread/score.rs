@@ -82,7 +82,7 @@ pub(super) fn score(
         log += log_density(own, width);
         scale += width.ln() * own.len() as f64 / numbers as f64;
     }
-    let penalty = priors.penalty(&fit.values);
+    let penalty = priors.penalty(&fit);
     let free = (numbers as f64 - fit.rank as f64).max(1.0);
     let (_, _, rows_of_first) = units.into_iter().next()?;
     let (price, digits) = hypothesis.map_or((0.0, 0.0), |own| (own.price, own.digits));

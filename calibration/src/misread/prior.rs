@@ -91,14 +91,7 @@ pub enum Implausible {
     Residual {
         /// RMS of the residual, SI.
         rms: f64,
-        /// Whether an error is by so much beyond a limit, and its uncertainty is less. A value that these data do not determine is no value.
-fn is_surely(fit: &FitResult, error: SymbolId, beyond: f64) -> bool {
-    let at = fit.parameters.iter().position(|id| *id == error);
-    let is_determined = at.and_then(|at| fit.separable.get(at)).copied().unwrap_or(false);
-    is_determined && fit.standard_uncertainty(error).is_some_and(|own| own < beyond)
-}
-
-/// The size of what was measured, SI: a radian of directions, the usual distance from their middle of points.
+        /// The size of what was measured, SI: a radian of directions, the usual distance from their middle of points.
         size: f64,
         /// Their unit.
         unit: SiUnit,
@@ -146,6 +139,13 @@ pub fn implausible(
         }
     }
     found
+}
+
+/// Whether an error is by so much beyond a limit, and its uncertainty is less. A value that these data do not determine is no value.
+fn is_surely(fit: &FitResult, error: SymbolId, beyond: f64) -> bool {
+    let at = fit.parameters.iter().position(|id| *id == error);
+    let is_determined = at.and_then(|at| fit.separable.get(at)).copied().unwrap_or(false);
+    is_determined && fit.standard_uncertainty(error).is_some_and(|own| own < beyond)
 }
 
 /// The size of what was measured, SI: a radian of directions, the usual distance from their middle of points.

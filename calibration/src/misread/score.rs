@@ -1,7 +1,7 @@
 //! One likelihood for every reading of the data: of the numbers as the file has them, with a prior on the errors.
 
 use fit::noise::Layout;
-use fit::{FitOptions, Model, fit_by};
+use fit::{FitOptions, Model, Why, fit_by};
 use observe::Observations;
 use statrs::function::gamma::ln_gamma;
 use study::{Plan, Read, SampledColumn};
@@ -54,6 +54,10 @@ pub(super) fn score(
     hypothesis: Option<&Hypothesis>,
 ) -> Option<Score> {
     let fit = fit_by(model.clone(), &plan.chain, observations, options).ok()?;
+    // What shows nothing of a row, as a camera that looks away, is no reading of it.
+    if fit.set_aside.iter().any(|own| own.why == Why::NoValue) {
+        return None;
+    }
     let layout = Layout::of(observations);
     let mut units: Vec<(observe::SiUnit, Vec<f64>, Vec<f64>)> = Vec::new();
     let mut at = 0;

@@ -165,7 +165,8 @@ fn centre(look: &Look, read: &[(usize, Read)], moving: &[usize], bar: &Read) -> 
             "the commanded positions are on no circle: a file has one place of the ball on the table",
         ));
     }
-    if !((length - radius).abs() <= AS_LONG * radius) {
+    let is_as_long = (length - radius).abs() <= AS_LONG * radius;
+    if !is_as_long {
         return Err(machine_tools::lacking(
             look,
             &format!(

@@ -22,13 +22,16 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// Digits that a sum of two decimal numbers is written with, of the 15 that a double holds.
 const DIGITS: usize = 14;
 
+/// A number out of those of a row.
+type Computed = Box<dyn Fn(&[f64]) -> f64 + Send>;
+
 /// A column that is computed of others.
 struct Added {
     name: ColumnName,
     /// Of which, and what takes their numbers to SI.
     needs: Vec<(usize, f64)>,
     /// Its number, SI, of theirs.
-    of: Box<dyn Fn(&[f64]) -> f64 + Send>,
+    of: Computed,
     /// The size of its own unit.
     in_si: f64,
 }

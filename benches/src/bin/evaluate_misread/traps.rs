@@ -180,9 +180,9 @@ const INDICES: [&str; 6] = ["azimuth_index", "ha_index", "zero1", "pan_index", "
 
 pub const TRAPS: &[Trap] = &[
     Trap { name: "joints in gon", on: any, spoil: |data, _| written_in(angles(data), "gon") },
-    Trap { name: "joints in gon, headings say deg", on: any, spoil: |data, _| headed(angles(data), "gon") },
+    Trap { name: "joints in gon, headings in deg", on: any, spoil: |data, _| headed(angles(data), "gon") },
     Trap {
-        name: "points in mm, headings say m",
+        name: "points in mm, headings in m",
         on: point,
         spoil: |data, _| headed(data.observed.iter_mut().collect(), "mm"),
     },
@@ -196,7 +196,7 @@ pub const TRAPS: &[Trap] = &[
         },
     },
     Trap {
-        name: "degrees said to be rad, joints",
+        name: "joints in degrees, read as rad",
         on: any,
         spoil: |data, _| said_to_be(angles(data), "rad"),
     },
@@ -206,7 +206,7 @@ pub const TRAPS: &[Trap] = &[
         spoil: |data, _| written_in(data.observed.iter_mut().collect(), "gon"),
     },
     Trap {
-        name: "observed degrees said to be gon",
+        name: "observed in degrees, read as gon",
         on: spherical,
         spoil: |data, _| said_to_be(data.observed.iter_mut().collect(), "gon"),
     },
@@ -232,7 +232,7 @@ pub const TRAPS: &[Trap] = &[
         spoil: |data, _| written_in(data.observed.iter_mut().collect(), "mm"),
     },
     Trap {
-        name: "points in m said to be mm",
+        name: "points in m, read as mm",
         on: point,
         spoil: |data, _| said_to_be(data.observed.iter_mut().collect(), "mm"),
     },

@@ -143,9 +143,7 @@ impl PrintedSymbols {
                     own.clone_from(outer);
                 }
             }
-            if let Some(found) = with(bare, After::Skew) {
-                return Some(found);
-            }
+            return with(bare, After::Skew);
         }
         if matches!(last.lower.as_str(), "×" | "\\wedge") {
             return with(Glyph { lower: String::new(), ..last.clone() }, After::Skew);

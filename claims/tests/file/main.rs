@@ -3,8 +3,6 @@
 
 mod hostile;
 mod kinds;
-mod mathml;
-mod names;
 mod notation;
 mod support;
 mod unread;

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use nalgebra::{DMatrix, DVector};
 use tables::formats::machine_tools::{Columns, Lack, Three};
 
 use super::look::{Column, Look, Read};
@@ -10,6 +11,9 @@ use super::words::Part;
 pub const AXES: [&str; 3] = ["x", "y", "z"];
 /// An axis whose readings differ by less than this stands still, m.
 const STILL_M: f64 = 1e-9;
+
+/// Singular values below this share of the largest entry are rounding.
+const ROUNDING: f64 = 1e-12;
 
 /// The three kinds of tests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -100,6 +104,20 @@ pub fn moves(read: &Read) -> bool {
         .iter()
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), own| (least.min(*own), most.max(*own)));
     most - least > STILL_M
+}
+
+/// Each of x, y and z, with whether it moves.
+pub fn axes(read: &[Read; 3]) -> Vec<(usize, bool)> {
+    read.iter().enumerate().map(|(axis, read)| (axis, moves(read))).collect()
+}
+
+/// The unknowns of normal equations; none of what is not finite, whose decomposition need not end.
+pub fn solved(normal: DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
+    if !normal.iter().chain(right.iter()).all(|entry| entry.is_finite()) {
+        return None;
+    }
+    let scale = normal.amax();
+    normal.svd(true, true).solve(right, ROUNDING * scale).ok()
 }
 
 /// A row of slides, the first on a body, with the name of the last.

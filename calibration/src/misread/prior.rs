@@ -141,7 +141,7 @@ pub fn implausible(
     found
 }
 
-/// Whether an error is by so much beyond a limit, and its uncertainty is less. A value that these data do not determine is no value.
+/// Whether the uncertainty of an error is less than what it is beyond a limit. A value that these data do not determine is no value.
 fn is_surely(fit: &FitResult, error: SymbolId, beyond: f64) -> bool {
     let at = fit.parameters.iter().position(|id| *id == error);
     let is_determined = at.and_then(|at| fit.separable.get(at)).copied().unwrap_or(false);

@@ -12,7 +12,7 @@ use report::shell_word;
 use report::wrap::paragraph;
 use service::beginning::{Begun, begun};
 use tables::dh::{self, Dh};
-use tables::formats::{self, DataError, Input, Options, Site};
+use tables::formats::{Options, Site};
 use tables::ur::{self, Deltas};
 use tables::urdf::Robot;
 
@@ -143,7 +143,8 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         command: &format!("trueaxis calibrate {}", shell_word(&text(&study_file)?)),
         site: arguments.site(),
     };
-    let Begun { study, remarks, doubtful } = begun(&draft, &look, names, &mut |_| open(data))?;
+    let Begun { study, remarks, doubtful } =
+        begun(&draft, &look, names, &mut |_| table_files::open_named(data, None))?;
     doubtful.into_iter().for_each(terminal::warn);
     let mut batch = output::Batch::default();
     batch.write_text(&chain_file, &draft.chain)?;
@@ -244,15 +245,9 @@ fn look(data: &Path, site: Option<Site>) -> Result<Look, Failure> {
             data.display()
         )));
     }
-    let file = open(data).map_err(|error| Failure::Input(error.to_string()))?;
     let options = Options { site, ..Options::default() };
-    let mut reader = formats::open(file, &data.display().to_string(), &options)
-        .map_err(|error| Failure::Input(error.to_string()))?;
+    let mut reader = table_files::open_table(data, &options).map_err(table_files::failure)?;
     Ok(Look::at(&mut *reader)?)
-}
-
-fn open(data: &Path) -> Result<Input<'static>, DataError> {
-    table_files::open_named(data, None)
 }
 
 /// A path as a study says it.

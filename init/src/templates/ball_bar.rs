@@ -22,8 +22,9 @@ pub const TEMPLATE: Template = Template {
 const ROUND: f64 = 1e-3;
 /// The bar is as long as the circle's radius within this share.
 const AS_LONG: f64 = 0.02;
-/// Rows follow each other where they are nearer than this share of the radius, and so many of them.
+/// A row follows the one before it where they are nearer than this share of the radius.
 const STEP: f64 = 0.5;
+/// Rows are on a path where this share of them follow each other.
 const MOST_STEPS: f64 = 0.9;
 /// A centre this near to zero is at zero, m.
 const AT_ZERO_M: f64 = 1e-7;
@@ -143,17 +144,11 @@ fn centre(look: &Look, read: &[(usize, Read)], moving: &[usize], bar: &Read) -> 
     let squares = DVector::from_fn(rows, |row, _| (at(row) - middle).norm_squared());
     let normal = system.transpose() * &system;
     let right = system.transpose() * squares;
-    let scale = normal.amax();
-    // A decomposition of what is not finite need not end.
-    if !normal.iter().chain(right.iter()).all(|entry| entry.is_finite()) {
-        return Err(machine_tools::lacking(
-            look,
-            "the commanded positions are too far apart: correct their units",
-        ));
-    }
-    let solved = normal.svd(true, true).solve(&right, 1e-12 * scale);
+    let solved = machine_tools::solved(normal, &right).ok_or_else(|| {
+        machine_tools::lacking(look, "the commanded positions are too far apart: correct their units")
+    })?;
     let mut centre = middle;
-    for (own, axis) in solved.iter().flat_map(|solved| solved.iter()).zip(moving) {
+    for (own, axis) in solved.iter().zip(moving) {
         centre[*axis] += own;
     }
     let distances: Vec<f64> = (0..rows).map(|row| (at(row) - centre).norm()).collect();

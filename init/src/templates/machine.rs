@@ -19,8 +19,7 @@ const NEAR: f64 = 1e-4;
 fn draft(look: &Look) -> Result<Draft, String> {
     let mut remarks = Vec::new();
     let [read, truth] = machine_tools::pair(look, &mut remarks)?;
-    let axes: Vec<(usize, bool)> =
-        read.iter().enumerate().map(|(axis, read)| (axis, machine_tools::moves(read))).collect();
+    let axes = machine_tools::axes(&read);
     if !axes.iter().any(|(_, moves)| *moves) {
         return Err(machine_tools::lacking(look, "no axis moves in these rows: add rows at other positions"));
     }

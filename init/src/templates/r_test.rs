@@ -47,8 +47,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
     let mut remarks = Vec::new();
     let [read, truth] = machine_tools::pair(look, &mut remarks)?;
     let turning = turning(look, &mut remarks)?;
-    let axes: Vec<(usize, bool)> =
-        read.iter().enumerate().map(|(axis, read)| (axis, machine_tools::moves(read))).collect();
+    let axes = machine_tools::axes(&read);
     if axes.iter().filter(|(_, moves)| *moves).count() < 2 {
         return Err(machine_tools::lacking(
             look,
@@ -165,12 +164,7 @@ fn fitted(points: &[Vector3<f64>], turning: &[Turning], signs: [f64; 2]) -> (f64
         normal += block.transpose() * &block;
         right += block.transpose() * point;
     }
-    let scale = normal.amax();
-    // A decomposition of what is not finite need not end.
-    if !normal.iter().chain(right.iter()).all(|entry| entry.is_finite()) {
-        return (f64::INFINITY, Vec::new());
-    }
-    let Ok(solved) = normal.svd(true, true).solve(&right, 1e-12 * scale) else {
+    let Some(solved) = machine_tools::solved(normal, &right) else {
         return (f64::INFINITY, Vec::new());
     };
     let off = points.iter().enumerate().map(|(row, point)| (rows(row) * &solved - point).amax());

@@ -75,8 +75,8 @@ fn numbers(seed: u64, case: usize, run: usize) -> Random {
 }
 
 fn spoiled(asked: &Asked, kept: &Kept) -> Result<String, Failure> {
-    let mut table =
-        "| mistake | instrument | 12 rows | 50 rows | 300 rows |\n|---|---|---|---|---|\n".to_owned();
+    let rows = ROWS.map(|rows| format!(" {rows} rows |")).concat();
+    let mut table = format!("| mistake | instrument |{rows}\n|---|---|{}\n", "---|".repeat(ROWS.len()));
     let mut sums = [0_usize; 8];
     for (case, trap) in TRAPS.iter().enumerate() {
         let is_asked =
@@ -162,6 +162,5 @@ fn clean(asked: &Asked, kept: &Kept) -> Result<String, Failure> {
 
 fn page(asked: &Asked, text: &str) -> String {
     let Asked { runs, clean, seed, .. } = asked;
-    let plural = if *runs == 1 { "" } else { "s" };
-    format!(include_str!("page.md"), runs = runs, clean = clean, seed = seed, plural = plural, text = text)
+    format!(include_str!("page.md"), runs = runs, clean = clean, seed = seed, text = text)
 }

@@ -1,10 +1,12 @@
 //! Data files of a plan, read into observations.
 
+use std::ops::Range;
+
 use model_core::{SymbolId, exact};
 
 use super::cells::RowCells;
 use super::columns::Columns;
-use super::labels::{Numbered, number};
+use super::labels::{Known, Numbered, number};
 use super::order::{not_understood, set_back, times};
 use super::plan::{Plan, Reading, SourcePlan};
 use super::ranges::check_ranges;
@@ -89,7 +91,7 @@ impl Plan {
             let columns = Columns::of(self, source);
             let paths = &source.paths;
             let mut rows = self.rows(&mut observations, source, paths, open, &columns, &mut doubtful)?;
-            sample.take(&columns, &rows);
+            sample.take(&columns, &rows, self.object_numbers(source, &rows).as_deref());
             self.observe(&mut observations, source, &columns, &mut rows, &mut groups)?;
         }
         let held_out = match (&self.hold_out.file, self.sources.first()) {
@@ -260,7 +262,7 @@ impl Plan {
             let parts = rows.labels[from..from + of.len()].iter().map(|labels| labels[row].as_str());
             parts.collect::<Vec<_>>().join(" ")
         };
-        let from = self.group.len() + usize::from(self.id.is_some());
+        let from = self.labels_of_objects(source).start;
         for row in 0..count {
             let name = label(from, &source.object, row);
             let known = unknowns.objects.iter().position(|own| own.label == name && own.shape == shape);
@@ -277,6 +279,19 @@ impl Plan {
             unknowns.object.push(Some(object as u32));
             unknowns.station.push(station as u32);
         }
+    }
+
+    /// Which columns of labels name the object of a row.
+    fn labels_of_objects(&self, source: &SourcePlan) -> Range<usize> {
+        let from = self.group.len() + usize::from(self.id.is_some());
+        from..from + source.object.len()
+    }
+
+    /// The number of the object of each row, where a source observes objects.
+    fn object_numbers(&self, source: &SourcePlan, rows: &Rows) -> Option<Vec<u32>> {
+        source.measure.shape()?;
+        let labels = &rows.labels[self.labels_of_objects(source)];
+        Some(number(&mut Known::new(), labels, rows.row_numbers.len()))
     }
 
     /// The readings of joints and inputs, derived ones included; those that were read are taken out of the rows.

@@ -17,6 +17,10 @@ use tables::formats::DataError;
 const ROWS: usize = 240;
 const BLOCKS: usize = 6;
 
+/// Rows of a source that are kept where they observe objects, and how many of each object at least: fewer say nothing of it.
+const ROWS_OF_OBJECTS: usize = 1500;
+const OF_OBJECT: usize = 6;
+
 /// Decimal digits of a number as it was written that survive its conversion to SI and back.
 const DIGITS: i32 = 14;
 
@@ -132,20 +136,12 @@ impl Changed {
 }
 
 impl Sample {
-    /// Takes some rows of a source.
-    pub(super) fn take(&mut self, columns: &Columns, rows: &Rows) {
-        let all = rows.row_numbers.len();
-        let length = ROWS / BLOCKS;
-        let kept: Vec<(usize, usize)> = if all <= ROWS {
-            (0..all).map(|row| (0, row)).collect()
-        } else {
-            let start = |block: usize| block * (all - length) / (BLOCKS - 1);
-            let block = |block: usize| (start(block)..start(block) + length).map(move |row| (block, row));
-            (0..BLOCKS).flat_map(block).collect()
-        };
+    /// Takes some rows of a source; `objects` has the number of what each row observes, where that is an object.
+    pub(super) fn take(&mut self, columns: &Columns, rows: &Rows, objects: Option<&[u32]>) {
+        let kept = objects.map_or_else(|| in_blocks(rows.row_numbers.len()), of_objects);
         let undeclared = rows.undeclared.clone();
-        let rows = rows.select(&kept.iter().map(|(_, row)| *row).collect::<Vec<_>>());
-        let block = kept.iter().map(|(block, _)| *block).collect();
+        let block = blocks(&kept);
+        let rows = rows.select(&kept);
         self.undeclared.push(undeclared);
         self.sources.push(Sampled { columns: columns.clone(), rows, block });
     }
@@ -258,6 +254,46 @@ impl Sampled {
         let kept: Vec<usize> = (0..kept.len()).filter(|&row| kept[row]).collect();
         if kept.len() == self.block.len() { rows } else { rows.select(&kept) }
     }
+}
+
+/// Some of so many rows, in blocks that are evenly spread.
+fn in_blocks(rows: usize) -> Vec<usize> {
+    if rows <= ROWS {
+        return (0..rows).collect();
+    }
+    let length = ROWS / BLOCKS;
+    let start = |block: usize| block * (rows - length) / (BLOCKS - 1);
+    (0..BLOCKS).flat_map(|block| start(block)..start(block) + length).collect()
+}
+
+/// Some of the rows of every object, or all rows of some of them where there are many: each evenly spread.
+fn of_objects(objects: &[u32]) -> Vec<usize> {
+    if objects.len() <= ROWS_OF_OBJECTS {
+        return (0..objects.len()).collect();
+    }
+    let mut count = vec![0; objects.iter().max().map_or(0, |last| *last as usize + 1)];
+    objects.iter().for_each(|object| count[*object as usize] += 1);
+    let every = (count.len() * OF_OBJECT).div_ceil(ROWS_OF_OBJECTS).max(1);
+    let most = ROWS_OF_OBJECTS / count.len().div_ceil(every);
+    let mut seen = vec![0; count.len()];
+    let is_kept = |object: u32| {
+        let object = object as usize;
+        let (before, all) = (seen[object], count[object]);
+        seen[object] += 1;
+        object.is_multiple_of(every) && (all <= most || before * most / all != seen[object] * most / all)
+    };
+    let kept: Vec<bool> = objects.iter().copied().map(is_kept).collect();
+    (0..objects.len()).filter(|&row| kept[row]).collect()
+}
+
+/// To which block of rows that follow each other each of some rows belongs.
+fn blocks(kept: &[usize]) -> Vec<usize> {
+    let mut block = 0;
+    let of_row = |at: usize| {
+        block += usize::from(at > 0 && kept[at] != kept[at - 1] + 1);
+        block
+    };
+    (0..kept.len()).map(of_row).collect()
 }
 
 /// The number that was multiplied by a factor, as it was written.

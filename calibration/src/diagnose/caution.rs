@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::ladder::{Ladder, RungName};
 use super::noise::NoiseFound;
 use super::uneven::Uneven;
-use crate::misread::{Implausible, Misread};
+use crate::misread::{Implausible, Misread, Strayed};
 use fit::FitResult;
 use observe::SiUnit;
 
@@ -267,26 +267,6 @@ pub enum Caution {
         /// What was found over what is stated.
         ratio: f64,
     },
-    /// A joint turns many times: degrees taken for radians?
-    #[serde(rename = "degrees read as radians")]
-    DegreesAsRadians {
-        /// The file.
-        source: String,
-        /// The joint.
-        joint: String,
-        /// Its largest reading, rad.
-        largest_rad: f64,
-    },
-    /// A joint hardly moves: radians taken for degrees?
-    #[serde(rename = "radians read as degrees")]
-    RadiansAsDegrees {
-        /// The file.
-        source: String,
-        /// The joint.
-        joint: String,
-        /// Its largest reading, rad.
-        largest_rad: f64,
-    },
     /// The residual is no small part of what was measured: a sign, an axis or a unit.
     #[serde(rename = "residual out of place")]
     OutOfPlace {
@@ -302,9 +282,6 @@ pub enum Caution {
         #[serde(skip_serializing_if = "Option::is_none")]
         but_for: Option<[usize; 2]>,
     },
-    /// The data are explained by a mistake in reading them.
-    #[serde(rename = "fits otherwise")]
-    FitsOtherwise(super::otherwise::Otherwise),
     /// Columns are not what the study says.
     #[serde(rename = "column misread")]
     ColumnMisread(Misread),
@@ -325,7 +302,7 @@ pub enum Caution {
     Moved(super::moved::Moved),
     /// Stations come out nowhere near where the study roughly puts them.
     #[serde(rename = "stations far from their rough places")]
-    StationsStrayed(super::strayed::Strayed),
+    StationsStrayed(Strayed),
     /// What is left is the rounding of the numbers: nothing can be searched in it.
     #[serde(rename = "residual is rounding")]
     ResidualIsRounding {

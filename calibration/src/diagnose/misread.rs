@@ -2,10 +2,8 @@
 
 use super::caution::Caution;
 use super::ended::Ended;
-use super::otherwise::{Doubt, otherwise};
 use super::rms::BeforeAfter;
-use super::strayed::strayed;
-use crate::misread::{Misread, implausible};
+use crate::misread::{Misread, implausible, strayed};
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 
@@ -16,8 +14,8 @@ pub(crate) struct Unsearched {
     pub misread: Option<Misread>,
 }
 
-/// The cautions, with the mistake that explains them first where there is one; behind them that stations come out elsewhere. Beside
-/// misread columns there are no others: they would bring them about.
+/// The cautions, with what no small error explains before them and stations that come out elsewhere behind. Beside misread columns there are
+/// no others: they would bring them about.
 pub(super) fn misread(
     whole: &Context<'_>,
     last: &Fitted,
@@ -29,43 +27,15 @@ pub(super) fn misread(
         return vec![Caution::ColumnMisread(columns.clone())];
     }
     let (request, fit) = (whole.request, &last.fit);
-    let has_failed =
-        matches!(ended, Ended::NotConverged { .. } | Ended::FarOff { .. } | Ended::NoRest { .. });
-    if let Some(mistake) = doubt(&cautions, has_failed).and_then(|doubt| otherwise(whole, doubt)) {
-        cautions.retain(|caution| !follows(caution));
-        cautions.insert(0, Caution::FitsOtherwise(mistake));
-    } else if !has_failed {
-        cautions.extend(strayed(whole, fit).map(Caution::StationsStrayed));
+    if matches!(ended, Ended::Converged { .. })
+        && let Some(unknowns) = &request.observations.unknowns
+    {
+        let own = strayed(&request.plan.places.stations, unknowns, &fit.values);
+        cautions.extend(own.map(Caution::StationsStrayed));
     }
     let values = implausible(&last.chain, request.observations, fit, &request.plan.plausible);
-    if !values.is_empty() && !cautions.iter().any(|own| matches!(own, Caution::FitsOtherwise(_))) {
+    if !values.is_empty() {
         cautions.insert(0, Caution::Implausible { values });
     }
     cautions
-}
-
-/// What raises a doubt among cautions.
-fn doubt(cautions: &[Caution], has_failed: bool) -> Option<Doubt> {
-    let count = |is: fn(&&Caution) -> bool| cautions.iter().filter(is).count();
-    let is_far = count(|caution| matches!(caution, Caution::OutOfPlace { .. })) > 0;
-    let are_aside = count(|caution| matches!(caution, Caution::NotWhereStated { sigmas: None, .. })) > 1;
-    if has_failed || is_far || are_aside {
-        return Some(Doubt::Residual);
-    }
-    let is_large = count(|caution| matches!(caution, Caution::ErrorNotSmall { .. })) > 0;
-    is_large.then_some(Doubt::Error)
-}
-
-/// Whether a mistake in reading the data would bring a caution about.
-fn follows(caution: &Caution) -> bool {
-    matches!(
-        caution,
-        Caution::OutOfPlace { .. }
-            | Caution::ErrorNotSmall { .. }
-            | Caution::NotWhereStated { .. }
-            | Caution::Scatters { .. }
-            | Caution::SetAsideShare { .. }
-            | Caution::OffAlike { .. }
-            | Caution::TwoPlaces(_)
-    )
 }

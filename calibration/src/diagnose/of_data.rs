@@ -15,11 +15,6 @@ const OUT_OF_PLACE: f64 = 0.2;
 /// Where no more than this share of the rows was set aside, and the others are near, it is those rows that were read wrongly.
 const FEW: f64 = 0.1;
 
-/// Joints that turn further than this, in radians, are likely degrees; those that stay within less, radians read as
-/// degrees.
-const FURTHEST_RAD: f64 = 4.0 * std::f64::consts::TAU;
-const NEAREST_RAD: f64 = 0.12;
-
 /// Residuals of this share of what was measured (of a radian for directions) are what some fifty roundings leave.
 const ROUNDING: f64 = 1e-14;
 
@@ -43,7 +38,6 @@ pub fn of_data(chain: &Chain, observations: &Observations, fit: &FitResult) -> V
         }
     }
     for series in &observations.poses.series {
-        cautions.extend(of_joints(chain, observations, series));
         cautions.extend(out_of_place(observations, series, fit));
     }
     cautions.extend(rounding(observations, fit));
@@ -53,29 +47,6 @@ pub fn of_data(chain: &Chain, observations: &Observations, fit: &FitResult) -> V
         let angle = symbol.kind == SymbolKind::Error && symbol.quantity == Quantity::Angle;
         if angle && separable && value_rad.abs() > LARGE_RAD {
             cautions.push(Caution::ErrorNotSmall { error: symbol.name.clone(), value_rad });
-        }
-    }
-    cautions
-}
-
-/// Joints whose readings look like another unit.
-fn of_joints(chain: &Chain, observations: &Observations, series: &Series) -> Vec<Caution> {
-    let mut cautions = Vec::new();
-    for (id, values) in &observations.poses.columns {
-        let symbol = chain.symbol(*id);
-        if symbol.kind != SymbolKind::Joint || symbol.quantity != Quantity::Angle {
-            continue;
-        }
-        let readings = &values[series.rows.clone()];
-        let largest_rad = readings.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-        let (source, joint) = (series.source.clone(), symbol.name.clone());
-        if largest_rad > FURTHEST_RAD {
-            cautions.push(Caution::DegreesAsRadians { source, joint, largest_rad });
-        } else if observations.converted.contains(id)
-            && readings.len() > 10
-            && (f64::MIN_POSITIVE..NEAREST_RAD).contains(&largest_rad)
-        {
-            cautions.push(Caution::RadiansAsDegrees { source, joint, largest_rad });
         }
     }
     cautions

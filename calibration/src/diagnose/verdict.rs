@@ -87,7 +87,7 @@ pub(super) struct Evidence<'a> {
 /// The first that holds, the worst first.
 pub(super) fn verdict(evidence: Evidence<'_>) -> Verdict {
     let any = |is: fn(&Caution) -> bool| evidence.cautions.iter().any(is);
-    if any(|caution| matches!(caution, Caution::ColumnMisread(_) | Caution::FitsOtherwise(_))) {
+    if any(|caution| matches!(caution, Caution::ColumnMisread(_))) {
         return Verdict::ColumnMisread;
     }
     match evidence.ended {

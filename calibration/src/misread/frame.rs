@@ -47,12 +47,7 @@ pub(super) fn turned(observations: &Observations, turn: &UnitQuaternion<f64>) ->
 /// The three numbers of a turn cost what three errors do.
 pub(super) fn hypothesis(observations: &Observations, turn: &UnitQuaternion<f64>) -> Hypothesis {
     let axis = turn.axis().map_or([0.0; 3], |axis| axis.into_inner().into());
-    Hypothesis {
-        reading: Reading::Frame { by_deg: turn.angle().to_degrees(), axis },
-        changes: Vec::new(),
-        lines: Vec::new(),
-        headings: Vec::new(),
-        price: FRAME_PRICE - RARE.ln() + 1.5 * (observations.rows() as f64).ln(),
-        digits: 0.0,
-    }
+    let reading = Reading::Frame { by_deg: turn.angle().to_degrees(), axis };
+    let price = FRAME_PRICE - RARE.ln() + 1.5 * (observations.rows() as f64).ln();
+    Hypothesis::new(reading, Vec::new(), Vec::new(), price)
 }

@@ -9,24 +9,28 @@ mod hypotheses;
 mod policy;
 mod prior;
 mod score;
+mod size;
 mod states;
+mod stations;
 mod trial;
 
 use model_core::SymbolId;
 use serde::Serialize;
 
-use observe::{Observations, SiUnit};
+use observe::SiUnit;
 use study::{Plan, Sample};
 
 use hypotheses::Written;
-pub use hypotheses::{Heading, Line, Reading};
+pub use hypotheses::{Heading, Line, Reading, StatedPlaces};
 pub use policy::THRESHOLDS;
 use policy::{
-    CLEARED, MARGIN, ONE_OF, RATIO, RATIO_ROWS, SAME, STATES_MARGIN, STATES_RATIO, STATES_RATIO_FEW,
-    STATES_ROWS,
+    CLEARED, MARGIN, MOST_RESIDUAL_SHARE, ONE_OF, RATIO, RATIO_ROWS, ROUGH_SHARE, SAME, STATES_MARGIN,
+    STATES_RATIO, STATES_RATIO_FEW, STATES_ROWS,
 };
 pub use prior::{Implausible, implausible};
 use score::Score;
+pub use stations::Strayed;
+pub(crate) use stations::strayed;
 use trial::{Trial, Tried};
 
 /// A column that is not what the study says.
@@ -67,9 +71,7 @@ pub struct Judgement {
     pub start: Option<Vec<f64>>,
 }
 
-/// How the columns of a study are read, judged on some of its rows.
-///
-/// Rows that observe unknown objects are not judged here: where a fit of those is far off, `diagnose` tries readings of theirs.
+/// How the columns of a study are read, judged on some of its rows, and the places that it states of objects and stations.
 #[must_use]
 pub fn judged(plan: &Plan, sample: &Sample) -> Judgement {
     judgement(plan, sample).unwrap_or_default()
@@ -78,18 +80,23 @@ pub fn judged(plan: &Plan, sample: &Sample) -> Judgement {
 fn judgement(plan: &Plan, sample: &Sample) -> Option<Judgement> {
     let trial = Trial::new(plan, sample)?;
     let mut as_read = trial.as_read()?;
+    // Where objects take up what is misread, a fit shows it: the others cost too much to be asked of every file.
+    if trial.own.unknowns.is_some() && !as_read.is_off(ROUGH_SHARE) {
+        return None;
+    }
     let mut readings = trial.others(&as_read);
     let best = readings.first()?;
     let mut start = None;
     if best.score.total - as_read.total >= MARGIN {
         let elsewhere = trial.as_read_elsewhere(best).filter(|other| other.total > as_read.total);
         if let Some(other) = elsewhere {
-            start = (other.total - as_read.total >= MARGIN).then(|| other.values.clone());
+            let errors = &other.values[..plan.chain.symbols.len()];
+            start = (other.total - as_read.total >= MARGIN).then(|| errors.to_vec());
             as_read = other;
         }
     }
     let margin = best.score.total - as_read.total;
-    readings.retain(|tried| explains(&trial, tried, &as_read, &trial.own));
+    readings.retain(|tried| explains(&trial, tried, &as_read));
     let misread = told(&trial, readings, &as_read, margin);
     Some(Judgement { start: start.filter(|_| misread.is_none()), misread })
 }
@@ -116,15 +123,19 @@ fn told(trial: &Trial<'_>, mut readings: Vec<Tried>, as_read: &Score, margin: f6
 
 /// Whether a reading explains what another, the study's own or a simpler one, does not. What only rounding leaves there is nothing to
 /// explain of.
-fn explains(trial: &Trial<'_>, tried: &Tried, as_read: &Score, own: &Observations) -> bool {
+fn explains(trial: &Trial<'_>, tried: &Tried, as_read: &Score) -> bool {
     let rounding = trial.rounding;
-    let Tried { hypothesis, score, observations } = tried;
-    let ratio = if as_read.rms > rounding { score.scale / as_read.scale } else { 1.0 };
+    let Tried { hypothesis, score, .. } = tried;
+    let mut ratio = if as_read.rms > rounding { score.scale / as_read.scale } else { 1.0 };
+    if trial.own.unknowns.is_some() {
+        // Unknown objects take up rows until a robust scale shows nothing.
+        ratio = ratio.min(score.relative() / as_read.relative());
+    }
     let is_gross = match &hypothesis.reading {
         Reading::Shifted { .. } => ratio <= RATIO_ROWS,
         Reading::Packed { .. } => ratio <= SAME && hypothesis.digits > 0.0,
         Reading::TwoStates { .. } => {
-            let most = if (own.rows() as f64) < STATES_ROWS { STATES_RATIO_FEW } else { STATES_RATIO };
+            let most = if (trial.own.rows() as f64) < STATES_ROWS { STATES_RATIO_FEW } else { STATES_RATIO };
             as_read.rms > rounding && ratio.min(score.rms / as_read.rms) <= most
         }
         // A robust scale hides a minority of rows.
@@ -140,9 +151,9 @@ fn explains(trial: &Trial<'_>, tried: &Tried, as_read: &Score, own: &Observation
     // What needs too large an error or leaves too large a residual explains nothing, unless the study's own reading does so too and the
     // residual is halved as it stands, in one unit. A turn of everything takes something off any residual.
     let may_be_rough = !matches!(hypothesis.reading, Reading::Frame { .. })
-        && trial.is_implausible(as_read, own)
+        && as_read.is_off(MOST_RESIDUAL_SHARE)
         && score.rms <= RATIO * as_read.rms;
-    let is_plausible = may_be_rough || !trial.is_implausible(score, observations);
+    let is_plausible = may_be_rough || !score.is_off(MOST_RESIDUAL_SHARE);
     score.total - as_read.total >= margin && is_gross && is_plausible
 }
 

@@ -57,6 +57,10 @@ pub(super) const MOST_TILT_RAD: f64 = PI / 36.0;
 pub(super) const MOST_LENGTH_SHARE: f64 = 0.1;
 pub(super) const MOST_RESIDUAL_SHARE: f64 = 0.03;
 
+/// Stations are not where a study roughly puts them where most are off by more than this, as a share of how far away objects are and in rad
+/// together.
+pub(super) const FAR: f64 = 0.5;
+
 /// What an error beyond its limit costs, nats: nobody makes an instrument like that.
 pub(super) const BEYOND: f64 = 20.0;
 
@@ -65,6 +69,8 @@ pub(super) const BEYOND: f64 = 20.0;
 pub(super) const FITTED: usize = 9;
 pub(super) const PARTS: usize = 3;
 pub(super) const SCREENED_STEPS: usize = 4;
+/// Steps of a fit beside unknown objects: a right reading is there by then, a wrong one need not be.
+pub(super) const OBJECT_STEPS: usize = 30;
 /// Single mistakes of each stage, the best first, beside which a second one is tried.
 pub(super) const PAIRED: usize = 3;
 
@@ -234,6 +240,12 @@ pub const THRESHOLDS: &[Threshold] = &[
         TRIALS,
     ),
     Threshold::new("prior.beyond", BEYOND, "nats that an error beyond its limit costs a reading", FRAMED),
+    Threshold::new(
+        "plausible.far",
+        FAR,
+        "how far most stations may be from their rough places, over the distance of objects and in rad",
+        "judgement: rough places are good to a tenth, those of a mirrored room are off by one and more",
+    ),
     Threshold::new("plausible.tilt_rad", MOST_TILT_RAD, "largest tilt that is a finding", ASKED),
     Threshold::new(
         "plausible.length_share",

@@ -57,12 +57,13 @@ impl Priors {
     }
 
     /// What errors of this size cost, nats: a t distribution with three degrees of freedom, against its value at zero; and as much again as
-    /// rules a reading out where one is surely beyond its limit.
-    pub fn penalty(&self, fit: &FitResult) -> f64 {
+    /// rules a reading out where one is surely beyond its limit, or where stations are nowhere near.
+    pub fn penalty(&self, fit: &FitResult, has_strayed: bool) -> f64 {
         let value = |own: &Scaled| fit.values[own.error.index()];
         let cost = |own: &Scaled| 2.0 * ((value(own) / own.scale).powi(2) / 3.0).ln_1p();
         let is_surely_beyond = |own: &Scaled| is_surely(fit, own.error, value(own).abs() - own.limit);
-        let beyond = if self.scales.iter().any(is_surely_beyond) { BEYOND } else { 0.0 };
+        let is_beyond = has_strayed || self.scales.iter().any(is_surely_beyond);
+        let beyond = if is_beyond { BEYOND } else { 0.0 };
         self.scales.iter().map(cost).sum::<f64>() + beyond
     }
 

@@ -2,12 +2,15 @@
 
 use fit::noise::Layout;
 use fit::{FitOptions, Model, Why, fit_by};
-use observe::Observations;
+use observe::unknowns::Station;
+use observe::{Observations, SiUnit};
 use statrs::function::gamma::ln_gamma;
 use study::{Plan, Read, SampledColumn};
 
 use super::hypotheses::Hypothesis;
-use super::prior::Priors;
+use super::prior::{Priors, measured_size};
+use super::size;
+use super::stations::strayed;
 
 /// Degrees of freedom of the residual's distribution: heavy enough for outliers.
 const DEGREES: f64 = 4.0;
@@ -25,8 +28,12 @@ pub(super) struct Score {
     pub scale: f64,
     /// RMS of the residual of the first unit without the rows furthest off, SI.
     pub rms: f64,
-    /// What the sizes of the errors cost.
+    /// The size of what was measured, SI.
+    pub size: f64,
+    /// What the sizes of the errors cost, and stations that are nowhere near their rough places.
     pub penalty: f64,
+    /// Whether an error is too large to be one, or stations are nowhere near.
+    pub is_beyond: bool,
     /// Where the fit came to.
     pub values: Vec<f64>,
     /// How many numbers these data determine.
@@ -34,10 +41,20 @@ pub(super) struct Score {
 }
 
 impl Score {
+    /// The residual over the size of what was measured.
+    pub fn relative(&self) -> f64 {
+        self.rms / self.size
+    }
+
+    /// Whether more is left than a share of what was measured, or an error is too large to be one.
+    pub fn is_off(&self, share: f64) -> bool {
+        self.relative() > share || self.is_beyond
+    }
+
     /// The same by the file's own numbers, where a fit was of observations that are turned.
     pub fn of_numbers(&mut self, own: &Observations, turned: &Observations, columns: &[SampledColumn]) {
         let numbers = own.poses.components() as f64;
-        let more = jacobian(own, columns, None) - jacobian(turned, columns, None);
+        let more = jacobian(own, columns, None, None) - jacobian(turned, columns, None, None);
         self.total += (numbers - self.rank as f64).max(1.0) / numbers * more;
         self.scale *= (-more / numbers).exp();
     }
@@ -54,12 +71,16 @@ pub(super) fn score(
     hypothesis: Option<&Hypothesis>,
 ) -> Option<Score> {
     let fit = fit_by(model.clone(), &plan.chain, observations, options).ok()?;
+    let of_objects_m = match &observations.unknowns {
+        Some(_) => Some(size::of_objects_m(&plan.chain, observations, &fit.values)?),
+        None => None,
+    };
     // What shows nothing of a row, as a camera that looks away, is no reading of it.
     if fit.set_aside.iter().any(|own| own.why == Why::NoValue) {
         return None;
     }
     let layout = Layout::of(observations);
-    let mut units: Vec<(observe::SiUnit, Vec<f64>, Vec<f64>)> = Vec::new();
+    let mut units: Vec<(SiUnit, Vec<f64>, Vec<f64>)> = Vec::new();
     let mut at = 0;
     let norms: Vec<f64> = layout.norms(&fit.residuals.raw).collect();
     for series in &observations.poses.series {
@@ -79,14 +100,16 @@ pub(super) fn score(
         return None;
     }
     let numbers: usize = units.iter().map(|(_, own, _)| own.len()).sum();
-    let jacobian = jacobian(observations, columns, hypothesis);
+    let jacobian = jacobian(observations, columns, hypothesis, of_objects_m);
     let (mut log, mut scale) = (jacobian, -jacobian / numbers as f64);
     for (_, own, _) in &units {
         let width = width(own);
         log += log_density(own, width);
         scale += width.ln() * own.len() as f64 / numbers as f64;
     }
-    let penalty = priors.penalty(&fit);
+    let stations = written(plan, hypothesis);
+    let strayed = observations.unknowns.as_ref().and_then(|own| strayed(&stations, own, &fit.values));
+    let penalty = priors.penalty(&fit, strayed.is_some());
     let free = (numbers as f64 - fit.rank as f64).max(1.0);
     let (_, _, rows_of_first) = units.into_iter().next()?;
     let (price, digits) = hypothesis.map_or((0.0, 0.0), |own| (own.price, own.digits));
@@ -95,21 +118,39 @@ pub(super) fn score(
         total,
         scale: scale.exp(),
         rms: trimmed(&rows_of_first),
+        size: of_objects_m.unwrap_or_else(|| measured_size(observations)),
         penalty,
+        is_beyond: strayed.is_some() || priors.is_beyond(&fit.values),
         rank: fit.rank,
         values: fit.values,
     })
 }
 
-/// The logarithm of how much the residual changes with the numbers as they are written.
+/// Where a study writes that stations stand, read so.
+pub(super) fn written(plan: &Plan, hypothesis: Option<&Hypothesis>) -> Vec<Station> {
+    let mut stations = plan.places.stations.clone();
+    let changes = hypothesis.into_iter().flat_map(|own| &own.places);
+    changes.for_each(|change| change.make(&mut [], &mut stations));
+    stations
+}
+
+/// The logarithm of how much the residual changes with the numbers as they are written. What observes unknown objects has no number of its
+/// own: its residual counts by how large things are.
 pub(super) fn jacobian(
     observations: &Observations,
     columns: &[SampledColumn],
     hypothesis: Option<&Hypothesis>,
+    of_objects_m: Option<f64>,
 ) -> f64 {
     let mut all = 0.0;
     for (number, series) in observations.poses.series.iter().enumerate() {
         let rows = series.rows.len() as f64;
+        if series.measure.shape().is_some() {
+            let is_length = series.measure.unit() == SiUnit::METRE;
+            let size_m = of_objects_m.filter(|_| is_length).unwrap_or(1.0);
+            all += rows * series.measure.components() as f64 * size_m.ln();
+            continue;
+        }
         let observed: Vec<&SampledColumn> = columns
             .iter()
             .filter(|column| column.place.source == number && matches!(column.read, Read::Observed(_)))

@@ -178,14 +178,7 @@ impl Rows<'_> {
             rows: rows.collect(),
             of: parted.is_other.len(),
         };
-        Hypothesis {
-            reading,
-            changes: Vec::new(),
-            lines: Vec::new(),
-            headings: Vec::new(),
-            price,
-            digits: 0.0,
-        }
+        Hypothesis::new(reading, Vec::new(), Vec::new(), price)
     }
 }
 

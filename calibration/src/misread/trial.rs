@@ -5,14 +5,15 @@ use std::f64::consts::FRAC_PI_2;
 use fit::noise::{Layout, NoiseOptions, resolution};
 use fit::{FitOptions, Model, residuals};
 use nalgebra::UnitQuaternion;
+use network::place;
 use observe::Observations;
 use study::{Changed, Plan, Sample, SampledColumn};
 
 use super::hypotheses::{self, Hypothesis, QUARTERS, Reading, both, from_row};
-use super::policy::{FITTED, MOST_RESIDUAL_SHARE, PAIRED, PARTS, ROUGH_SHARE, SCREENED_STEPS};
-use super::prior::{Priors, indexed, measured_size};
-use super::score::{Score, jacobian, score};
-use super::{explains, frame, states};
+use super::policy::{FITTED, OBJECT_STEPS, PAIRED, PARTS, ROUGH_SHARE, SCREENED_STEPS};
+use super::prior::{Priors, indexed};
+use super::score::{Score, jacobian, score, trimmed, written};
+use super::{explains, frame, size, states, strayed};
 
 /// A reading of the data, and what it comes to.
 #[derive(Clone)]
@@ -37,10 +38,10 @@ pub(super) struct Trial<'a> {
 }
 
 impl<'a> Trial<'a> {
-    /// `None` where the rows observe unknown objects, or there are none.
+    /// `None` where there are no rows, or nowhere to start from.
     pub fn new(plan: &'a Plan, sample: &'a Sample) -> Option<Self> {
-        let own = read(plan, sample, &[])?;
-        if own.unknowns.is_some() || own.rows() == 0 {
+        let own = read(plan, sample, None)?;
+        if own.rows() == 0 {
             return None;
         }
         // No model of the noise.
@@ -62,17 +63,12 @@ impl<'a> Trial<'a> {
     }
 
     /// Whether a reading needs an error that is too large to be one, or leaves a large part of what was measured.
-    pub fn is_implausible(&self, score: &Score, observations: &Observations) -> bool {
-        self.is_off(MOST_RESIDUAL_SHARE, score, observations)
-    }
-
-    /// Whether a reading leaves more than a share of what was measured, or needs an error that is too large to be one.
-    fn is_off(&self, share: f64, score: &Score, observations: &Observations) -> bool {
-        score.rms > share * measured_size(observations) || self.priors.is_beyond(&score.values)
-    }
 
     /// The score of the study's own reading. It alone is worth other starts: most other readings are wrong and end far off.
     pub fn as_read(&self) -> Option<Score> {
+        if self.own.unknowns.is_some() {
+            return self.score(&self.own, &self.plan.fit.start, self.object_steps(), None);
+        }
         let options = FitOptions { other_starts: true, ..self.options.clone() };
         self.score_by(&self.own, &options, None)
     }
@@ -80,6 +76,9 @@ impl<'a> Trial<'a> {
     /// The same from another reading's errors, and from homes elsewhere: a quarter or half turn away, or by what a frame is turned. A wrong
     /// minimum is no misread column.
     pub fn as_read_elsewhere(&self, other: &Tried) -> Option<Score> {
+        if self.own.unknowns.is_some() {
+            return None;
+        }
         let mut starts = vec![other.score.values.clone()];
         let quarters = QUARTERS.map(|quarters| FRAC_PI_2 * f64::from(quarters));
         let by_rad = match other.hypothesis.reading {
@@ -101,7 +100,10 @@ impl<'a> Trial<'a> {
     /// The other readings that come out best, fitted to the end, the best first.
     pub fn others(&self, as_read: &Score) -> Vec<Tried> {
         let indexed = indexed(self.plan, &self.own).into_iter().map(|(joint, _)| joint).collect();
-        let all = hypotheses::all(self.plan, &self.columns, indexed);
+        let all = hypotheses::all(self.plan, &self.columns, indexed, &self.own);
+        if self.own.unknowns.is_some() {
+            return self.nearest(all);
+        }
         let mut screened: Vec<Tried> =
             all.into_iter().filter_map(|hypothesis| self.screened(hypothesis, as_read)).collect();
         screened.extend(self.of_rows(&screened, as_read));
@@ -112,17 +114,42 @@ impl<'a> Trial<'a> {
         best_first(&mut finalists);
         // A second mistake explains what the first leaves.
         let single = finalists.first().cloned();
-        let is_rough = |tried: &Tried| self.is_off(ROUGH_SHARE, &tried.score, &tried.observations);
-        if self.is_off(ROUGH_SHARE, as_read, &self.own) && single.as_ref().is_none_or(is_rough) {
+        let is_rough = |tried: &Tried| tried.score.is_off(ROUGH_SHARE);
+        if as_read.is_off(ROUGH_SHARE) && single.as_ref().is_none_or(is_rough) {
             let mut pairs = self.pairs(&screened);
             best_first(&mut pairs);
             let pairs = self.to_the_end(&pairs).into_iter();
-            finalists.extend(pairs.filter(|pair| {
-                single.as_ref().is_none_or(|single| explains(self, pair, &single.score, &single.observations))
-            }));
+            finalists.extend(
+                pairs.filter(|pair| single.as_ref().is_none_or(|single| explains(self, pair, &single.score))),
+            );
             best_first(&mut finalists);
         }
         finalists
+    }
+
+    /// Readings of what observes unknown objects, the best first. Where everything starts tells most of them apart, in no time; few are
+    /// fitted.
+    fn nearest(&self, all: Vec<Hypothesis>) -> Vec<Tried> {
+        let of = |hypothesis: Hypothesis| {
+            let observations = self.read(&hypothesis)?;
+            let near = at_start(self.plan, &observations, &hypothesis)?;
+            Some((near, hypothesis, observations))
+        };
+        let mut near: Vec<_> = parallel::each_of(all, of).into_iter().flatten().collect();
+        near.sort_by(|(one, ..), (other, ..)| one.0.cmp(&other.0).then(one.1.total_cmp(&other.1)));
+        near.truncate(FITTED);
+        let fitted = |(_, hypothesis, observations): (_, Hypothesis, Observations)| {
+            let score =
+                self.score(&observations, &self.plan.fit.start, self.object_steps(), Some(&hypothesis))?;
+            Some(Tried { hypothesis, score, observations })
+        };
+        let mut all: Vec<Tried> = parallel::each_of(near, fitted).into_iter().flatten().collect();
+        best_first(&mut all);
+        all
+    }
+
+    fn object_steps(&self) -> usize {
+        self.plan.fit.max_iterations.min(OBJECT_STEPS)
     }
 
     /// The first of some readings, fitted to the end, the best first.
@@ -156,7 +183,7 @@ impl<'a> Trial<'a> {
         });
         let pairs: Vec<(Hypothesis, &[f64])> = pairs.collect();
         let tried = |(hypothesis, first): (Hypothesis, &[f64])| {
-            let observations = read(self.plan, self.sample, &hypothesis.changes)?;
+            let observations = self.read(&hypothesis)?;
             let starts = [self.plan.fit.start.as_slice(), first];
             let from = |start: &[f64]| self.score(&observations, start, SCREENED_STEPS, Some(&hypothesis));
             let score = starts.into_iter().filter_map(from).max_by(|a, b| a.total.total_cmp(&b.total))?;
@@ -171,7 +198,7 @@ impl<'a> Trial<'a> {
             plan: self.plan,
             observations: &self.own,
             labels: &self.sample.undeclared(&self.own),
-            jacobian: jacobian(&self.own, &self.columns, None),
+            jacobian: jacobian(&self.own, &self.columns, None, None),
         };
         let (hypothesis, score) = rows.parted(as_read)?;
         Some(Tried { hypothesis, score, observations: self.own.clone() })
@@ -198,7 +225,7 @@ impl<'a> Trial<'a> {
 
     /// A reading after a few steps, from the errors that the study starts from or from those found so far.
     fn screened(&self, hypothesis: Hypothesis, as_read: &Score) -> Option<Tried> {
-        let observations = read(self.plan, self.sample, &hypothesis.changes)?;
+        let observations = self.read(&hypothesis)?;
         let from = |start| self.score(&observations, start, SCREENED_STEPS, Some(&hypothesis));
         let scores = [from(self.plan.fit.start.as_slice()), from(&as_read.values)];
         let score = scores.into_iter().flatten().max_by(|a, b| a.total.total_cmp(&b.total))?;
@@ -237,7 +264,9 @@ impl<'a> Trial<'a> {
         steps: usize,
         hypothesis: Option<&Hypothesis>,
     ) -> Option<Score> {
-        let options = FitOptions { start: start.to_vec(), max_iterations: steps, ..self.options.clone() };
+        // Objects and stations count from where they were placed.
+        let start = start[..self.plan.chain.symbols.len()].to_vec();
+        let options = FitOptions { start, max_iterations: steps, ..self.options.clone() };
         self.score_by(observations, &options, hypothesis)
     }
 
@@ -250,6 +279,12 @@ impl<'a> Trial<'a> {
         score(self.plan, &self.model, observations, options, &self.priors, &self.columns, hypothesis)
     }
 
+    /// The rows with some columns or places read otherwise; `None` where that is impossible, or leaves objects without a place.
+    fn read(&self, hypothesis: &Hypothesis) -> Option<Observations> {
+        let read = read(self.plan, self.sample, Some(hypothesis))?;
+        (read.unknowns.is_none() || read.rows() == self.own.rows()).then_some(read)
+    }
+
     /// How far off each row is, SI; `None` where the rows are not those of the sample.
     fn norms(&self, observations: &Observations, values: &[f64]) -> Option<Vec<f64>> {
         let is_whole = self.plan.sources.len() == 1 && observations.rows() == self.own.rows();
@@ -258,11 +293,29 @@ impl<'a> Trial<'a> {
     }
 }
 
-/// What the rows observe with some columns read otherwise. A score asks for no uncertainties: which rows belong together is of no
-/// account.
-fn read(plan: &Plan, sample: &Sample, changes: &[Changed]) -> Option<Observations> {
-    let observations = sample.observations(plan, changes).ok()?;
+/// What the rows observe with some columns or places read otherwise, objects and stations where they start. A score asks for no
+/// uncertainties: which rows belong together is of no account.
+fn read(plan: &Plan, sample: &Sample, hypothesis: Option<&Hypothesis>) -> Option<Observations> {
+    let (changes, places) = hypothesis.map_or((&[][..], &[][..]), |own| (&own.changes, &own.places));
+    let mut observations = sample.observations(plan, changes).ok()?;
+    if let Some(unknowns) = &mut observations.unknowns {
+        places.iter().for_each(|change| change.make(&mut unknowns.objects, &mut unknowns.stations));
+        place(&plan.chain, &mut observations, &plan.fit.start).ok()?;
+    }
     Some(Observations { groups: Vec::new(), crossed: Vec::new(), ..observations })
+}
+
+/// Whether stations start nowhere near where they are written, and what is left there, over how large things are.
+fn at_start(plan: &Plan, observations: &Observations, hypothesis: &Hypothesis) -> Option<(bool, f64)> {
+    let unknowns = observations.unknowns.as_ref()?;
+    let mut values = plan.fit.start.clone();
+    values.resize(plan.chain.symbols.len() + unknowns.numbers(), 0.0);
+    let model = Model::without_columns(&plan.chain, &observations.poses);
+    let raw = residuals(&model, observations, &values).ok()?;
+    let norms: Vec<f64> = Layout::of(observations).norms(&raw).collect();
+    let left = trimmed(&norms) / size::of_objects_m(&plan.chain, observations, &values)?;
+    let is_strayed = strayed(&written(plan, Some(hypothesis)), unknowns, &values).is_some();
+    left.is_finite().then_some((is_strayed, left))
 }
 
 fn best_first(all: &mut [Tried]) {

@@ -11,7 +11,7 @@ use super::numbers::{short, times};
 use super::rivals::rival;
 use super::step::Step;
 use super::steps::{
-    fits_otherwise, is_hardly_repeated, is_misread, is_unconfirmed, is_worse, shows_nothing, steps,
+    is_hardly_repeated, is_misread, is_unconfirmed, is_worse, share_labels, shows_nothing, steps,
 };
 use calibration::diagnose::{Caution, Diagnosis, EffectFound, Ended, EveryRow, Verdict};
 use observe::SiUnit;
@@ -159,7 +159,7 @@ fn badge(diagnosis: &Diagnosis) -> String {
     let effects = if count == 1 { "effect" } else { "effects" };
     match diagnosis.verdict {
         Verdict::ColumnMisread if misread(diagnosis).is_some() => "A column is misread".to_owned(),
-        _ if fits_otherwise(diagnosis) => "Likely read wrongly".to_owned(),
+        _ if share_labels(diagnosis) => "Likely read wrongly".to_owned(),
         _ if let Some(rival) = rival(diagnosis) => rival.badge.to_owned(),
         _ if is_worse(diagnosis) => "Worse on held-out data".to_owned(),
         _ if let Some((badge, _)) = fitted(diagnosis) => badge.to_owned(),
@@ -217,14 +217,8 @@ fn one_for_several(diagnosis: &Diagnosis) -> Option<(&str, usize)> {
 /// The verdict in sentences, under the badge.
 fn happened(diagnosis: &Diagnosis) -> String {
     let count = diagnosis.effects.len();
-    if fits_otherwise(diagnosis) {
-        let strayed = diagnosis.cautions.iter().any(|caution| matches!(caution, Caution::StationsStrayed(_)));
-        let own = if strayed {
-            "The fitted stations are not where the study places them. If an angle runs the wrong way, the errors have the wrong sign."
-        } else {
-            "The data or the stated places were likely read in the wrong way. Do not use any number here."
-        };
-        return own.to_owned();
+    if share_labels(diagnosis) {
+        return "Most objects are at two places. Do not use any number here.".to_owned();
     }
     if let Some(rival) = rival(diagnosis) {
         return rival.happened.to_owned();

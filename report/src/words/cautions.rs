@@ -2,7 +2,6 @@
 
 use super::columns;
 use super::ladder::{model, size};
-use super::misreadings::{misread, strayed};
 use super::numbers::{reading, short, times, told, told_in};
 use calibration::diagnose::{Caution, LengthsOff, Moved, TwoPlaces, Uneven};
 use observe::SiUnit;
@@ -224,14 +223,6 @@ pub fn caution(caution: &Caution) -> String {
                 times(1.0 / ratio)
             )
         }
-        Caution::DegreesAsRadians { source, joint, largest_rad } => format!(
-            "In {source}, `{joint}` reaches {largest_rad:.0} rad, {:.0} turns. If these are degrees, write `unit = \"deg\"` beside the column.",
-            largest_rad / std::f64::consts::TAU
-        ),
-        Caution::RadiansAsDegrees { source, joint, largest_rad } => format!(
-            "In {source}, `{joint}` stays within {:.1} deg. If these are radians, write `unit = \"rad\"` beside the column.",
-            largest_rad.to_degrees()
-        ),
         Caution::OutOfPlace { source, but_for: Some([aside, rows]), .. } => format!(
             "In {source}, {aside} of the {rows} rows are outliers by a large distance. Check their labels, objects and stations."
         ),
@@ -248,8 +239,7 @@ pub fn caution(caution: &Caution) -> String {
         },
         Caution::ColumnMisread(misread) => columns::told(misread),
         Caution::Implausible { values } => columns::implausible(values),
-        Caution::FitsOtherwise(otherwise) => misread(otherwise),
-        Caution::StationsStrayed(own) => strayed(own),
+        Caution::StationsStrayed(own) => columns::strayed(own),
         Caution::Moved(own) => moved(own),
         Caution::LengthsOff(own) => lengths_off(own),
         Caution::TwoPlaces(TwoPlaces { label, apart_m, rows: [one, other], objects: [some, all] }) => {

@@ -3,7 +3,7 @@
 use super::numbers::short;
 use super::step::Step;
 use calibration::diagnose::{Caution, Diagnosis};
-use calibration::misread::{Heading, Implausible, Line, Misread, Reading, Suspect};
+use calibration::misread::{Heading, Implausible, Line, Misread, Reading, StatedPlaces, Strayed, Suspect};
 use observe::SiUnit;
 
 /// Readings that are shown where several explain the data alike.
@@ -89,11 +89,32 @@ fn step(suspect: &Suspect) -> Step {
              wrong latitude about the line from east to west. If the instrument itself is turned like this, write the turn into the declaration \
              as a position of its first body. ",
         );
+    } else if let Some(places) = of_places(&suspect.reading) {
+        text.push_str(places);
+        text.push(' ');
+    } else if matches!(suspect.reading, Reading::Doubled { .. }) {
+        text.push_str("Halve these numbers in the file. ");
     } else if suspect.lines.is_empty() && suspect.headings.is_empty() {
         text.push_str("Correct these rows in the file. ");
     }
     text.push_str("Then calibrate again.");
     Step { title: title(&suspect.reading).to_owned(), text, command: None }
+}
+
+/// What to do about stated places.
+fn of_places(reading: &Reading) -> Option<&'static str> {
+    match reading {
+        Reading::PlacesExchanged { .. } => Some("Exchange x and y where the study states these places."),
+        Reading::PlacesUnit { .. } => Some("Correct the unit where the study states these places."),
+        Reading::HeadingsReversed => Some("Change the sign of each heading in the study."),
+        Reading::HeadingsFromY { exchanged: false } => {
+            Some("Write 90 deg − heading for each heading in the study.")
+        }
+        Reading::HeadingsFromY { exchanged: true } => {
+            Some("Exchange x and y of the places in the study, and write 90 deg − heading for each heading.")
+        }
+        _ => None,
+    }
 }
 
 /// Lines to write, by their tables.
@@ -150,7 +171,11 @@ fn title(reading: &Reading) -> &'static str {
         Reading::Reversed { .. } => "Reverse the sign",
         Reading::FromZenith { .. } => "Count from the horizon",
         Reading::Turned { .. } => "Move the zero",
-        Reading::FromRow { .. } => "Correct these rows",
+        Reading::FromRow { .. } | Reading::OfStation { .. } => "Correct these rows",
+        Reading::Doubled { .. } => "Halve the lengths",
+        Reading::PlacesExchanged { .. } => "Exchange x and y",
+        Reading::PlacesUnit { .. } => "Correct the unit of the places",
+        Reading::HeadingsReversed | Reading::HeadingsFromY { .. } => "Correct the headings",
         Reading::Exchanged { .. } => "Exchange the columns",
         Reading::Order { .. } => "Change the order of the columns",
         Reading::Inverse { .. } => "Turn the rotation round",
@@ -184,6 +209,23 @@ fn sentence(reading: &Reading) -> String {
             let which = if *before { "before" } else { "from" };
             let on = if *before { "" } else { " on" };
             format!("{} This applies only to the rows {which} row {row}{on}.", sentence(reading))
+        }
+        Reading::OfStation { reading, station } => {
+            format!("{} This applies only to the rows of station `{station}`.", sentence(reading))
+        }
+        Reading::Doubled { column } => {
+            format!("Column `{column}` holds twice what the study takes it for, such as diameters for radii.")
+        }
+        Reading::PlacesExchanged { of } => format!("x and y of {} are exchanged.", places(*of)),
+        Reading::PlacesUnit { of, is, read } => {
+            format!("The coordinates of {} are in {is}, not {read}.", places(*of))
+        }
+        Reading::HeadingsReversed => "The headings of the stations run the other way.".to_owned(),
+        Reading::HeadingsFromY { exchanged: false } => {
+            "The headings of the stations are bearings from y to x.".to_owned()
+        }
+        Reading::HeadingsFromY { exchanged: true } => {
+            "x and y of the places are northing and easting, and the headings are bearings.".to_owned()
         }
         Reading::Order { columns, order } => {
             format!(
@@ -223,6 +265,23 @@ fn sentence(reading: &Reading) -> String {
             let row = if *by > 0 { "one row too early" } else { "one row too late" };
             format!("{what} {} {are} {row} compared with the observations.", listed(columns))
         }
+    }
+}
+
+/// That stations are fitted away from their rough places.
+pub(super) fn strayed(Strayed { station, away_m, turn_rad }: &Strayed) -> String {
+    let (away, turn) = (short(*away_m, SiUnit::METRE), turn_rad.to_degrees());
+    format!(
+        "The fitted stations are not where the study roughly places them, `{station}` by {away} and {turn:.0}°. Check their names, x and y, \
+         headings, and which way angles run."
+    )
+}
+
+fn places(of: StatedPlaces) -> &'static str {
+    match of {
+        StatedPlaces::Objects => "the stated objects",
+        StatedPlaces::Stations => "the stated stations",
+        StatedPlaces::Both => "the stated objects and stations",
     }
 }
 

@@ -17,7 +17,6 @@ mod hidden;
 mod ladder;
 mod left;
 mod measure;
-mod misreadings;
 mod next;
 mod noise;
 pub mod numbers;

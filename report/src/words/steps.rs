@@ -26,7 +26,7 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) 
             ));
             return steps;
         }
-        Verdict::FitFailed if !fits_otherwise(diagnosis) => {
+        Verdict::FitFailed if !share_labels(diagnosis) => {
             steps.push(step(
                 "Check units, signs and axes",
                 "Most often a column is in another unit, or a sign or an axis is reversed. Starting values may also be far from the truth. \
@@ -35,7 +35,7 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) 
             ));
             return steps;
         }
-        Verdict::TooFewObservations if !fits_otherwise(diagnosis) => {
+        Verdict::TooFewObservations if !share_labels(diagnosis) => {
             let text = match diagnosis.fit.amended {
                 Ended::TooFewObservations { parameters, of_objects, .. } => format!(
                     "At least {}{}. Or fix errors that are known (`[fit] fix`).",
@@ -298,9 +298,7 @@ pub(super) fn is_misread(diagnosis: &Diagnosis) -> bool {
         matches!(
             caution,
             Caution::OutOfPlace { but_for: None, .. }
-                | Caution::DegreesAsRadians { .. }
                 | Caution::NotWhereStated { .. }
-                | Caution::FitsOtherwise(_)
                 | Caution::StationsStrayed(_)
                 | Caution::TwoPlaces(_)
         )
@@ -308,11 +306,9 @@ pub(super) fn is_misread(diagnosis: &Diagnosis) -> bool {
     diagnosis.cautions.iter().any(misread)
 }
 
-/// Whether a mistake in reading explains the data.
-pub(super) fn fits_otherwise(diagnosis: &Diagnosis) -> bool {
+/// Whether most objects are at two places: two of them share a label.
+pub(super) fn share_labels(diagnosis: &Diagnosis) -> bool {
     diagnosis.cautions.iter().any(|caution| match caution {
-        Caution::FitsOtherwise(_) => true,
-        Caution::StationsStrayed(own) => !own.mistakes.is_empty(),
         Caution::TwoPlaces(own) => 2 * own.objects[0] > own.objects[1],
         _ => false,
     })

@@ -18,20 +18,14 @@ const DECIMAL: [u32; 9] =
 pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
     let of_column = |column: &&SampledColumn| -> Vec<Hypothesis> {
         let each = BITS.map(|bits| 1 << bits).chain(DECIMAL);
-        each.map(|per_turn: u32| Hypothesis {
-            reading: Reading::Counts { column: column.name.clone(), per_turn },
-            changes: vec![Changed::all(column.place, Change::Factor(TAU / f64::from(per_turn)))],
-            lines: vec![line(
-                tried.plan,
-                column,
-                &column.name,
-                vec![("counts_per_turn", per_turn.to_string())],
-            )],
-            headings: Vec::new(),
-            price: COUNTS_PRICE,
-            digits: 0.0,
-        })
-        .collect()
+        let hypothesis = |per_turn: u32| {
+            let changes = vec![Changed::all(column.place, Change::Factor(TAU / f64::from(per_turn)))];
+            let how = vec![("counts_per_turn", per_turn.to_string())];
+            let lines = vec![line(tried.plan, column, &column.name, how)];
+            let reading = Reading::Counts { column: column.name.clone(), per_turn };
+            Hypothesis::new(reading, changes, lines, COUNTS_PRICE)
+        };
+        each.map(hypothesis).collect()
     };
     tried.joints.iter().filter(|column| may_be(column)).flat_map(of_column).collect()
 }

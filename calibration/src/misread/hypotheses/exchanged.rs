@@ -22,15 +22,10 @@ fn hypothesis(tried: &Tried<'_>, one: &SampledColumn, other: &SampledColumn) -> 
     let reads = |column: &SampledColumn, from: &SampledColumn| {
         line(tried.plan, column, &from.name, beside_unit(from, []))
     };
-    Hypothesis {
-        reading: Reading::Exchanged { columns: [one.name.clone(), other.name.clone()] },
-        changes: vec![
-            Changed::all(one.place, Change::Exchanged(other.place)),
-            Changed::all(other.place, Change::Exchanged(one.place)),
-        ],
-        lines: vec![reads(one, other), reads(other, one)],
-        headings: Vec::new(),
-        price: EXCHANGED_PRICE,
-        digits: 0.0,
-    }
+    let reading = Reading::Exchanged { columns: [one.name.clone(), other.name.clone()] };
+    let changes = vec![
+        Changed::all(one.place, Change::Exchanged(other.place)),
+        Changed::all(other.place, Change::Exchanged(one.place)),
+    ];
+    Hypothesis::new(reading, changes, vec![reads(one, other), reads(other, one)], EXCHANGED_PRICE)
 }

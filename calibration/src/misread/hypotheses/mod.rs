@@ -2,10 +2,13 @@
 
 pub(super) mod both;
 mod counts;
+mod doubled;
 mod exchanged;
 pub(super) mod from_row;
+mod of_station;
 mod order;
 mod packed;
+pub(super) mod places;
 mod sense;
 mod shifted;
 mod turned;
@@ -17,10 +20,13 @@ use model_core::{SymbolId, SymbolKind};
 use serde::Serialize;
 
 use super::policy::RARE;
-use observe::SiUnit;
+use fit::range_of;
+use observe::{Observations, SiUnit};
 use study::{Change, Changed, Notation, Plan, Read, SampledColumn};
 pub(super) use written::Written;
 
+use places::PlaceChange;
+pub use places::StatedPlaces;
 pub(super) use turned::QUARTERS;
 
 /// Every kind of mistake.
@@ -33,6 +39,9 @@ const KINDS: &[fn(&Tried<'_>) -> Vec<Hypothesis>] = &[
     exchanged::tried,
     order::tried,
     shifted::tried,
+    doubled::tried,
+    places::tried,
+    of_station::tried,
 ];
 
 /// What the kinds of mistake are tried on.
@@ -40,8 +49,12 @@ pub(super) struct Tried<'a> {
     pub plan: &'a Plan,
     /// Columns of joints.
     pub joints: Vec<&'a SampledColumn>,
+    /// Columns of ranges that are readings.
+    pub ranges: Vec<&'a SampledColumn>,
     /// Columns of what was observed.
     pub observed: Vec<&'a SampledColumn>,
+    /// The rows as the study reads them.
+    pub rows: &'a Observations,
     /// Joints whose zero is estimated.
     pub indexed: Vec<SymbolId>,
 }
@@ -51,6 +64,8 @@ pub(super) struct Tried<'a> {
 pub(super) struct Hypothesis {
     pub reading: Reading,
     pub changes: Vec<Changed>,
+    /// What changes of the places that the study states.
+    pub places: Vec<PlaceChange>,
     pub lines: Vec<Written>,
     pub headings: Vec<Heading>,
     /// How improbable it is beforehand, nats.
@@ -60,6 +75,11 @@ pub(super) struct Hypothesis {
 }
 
 impl Hypothesis {
+    /// One that only the study's lines and its price speak of.
+    pub fn new(reading: Reading, changes: Vec<Changed>, lines: Vec<Written>, price: f64) -> Self {
+        Self { reading, changes, places: Vec::new(), lines, headings: Vec::new(), price, digits: 0.0 }
+    }
+
     /// How much a reading of a column changes with the number as it is written.
     pub fn factor(&self, column: &SampledColumn) -> f64 {
         let factor = |own: &Changed| match own.change {
@@ -117,6 +137,39 @@ pub enum Reading {
         column: String,
         /// What is to be added, deg.
         by_deg: i16,
+    },
+    /// Numbers of a column are twice what they are taken for: diameters for radii.
+    Doubled {
+        /// The column of the file.
+        column: String,
+    },
+    /// x and y of the places that the study states are exchanged: northing and easting.
+    PlacesExchanged {
+        /// Of which.
+        of: StatedPlaces,
+    },
+    /// The places that the study states are in another unit of length.
+    PlacesUnit {
+        /// Of which.
+        of: StatedPlaces,
+        /// The unit that they are in, and the one that they were read in.
+        is: &'static str,
+        /// The same as the study reads it.
+        read: &'static str,
+    },
+    /// The headings of stations that the study states run the other way.
+    HeadingsReversed,
+    /// The headings of stations that the study states count from y to x: bearings.
+    HeadingsFromY {
+        /// Whether x and y are exchanged as well.
+        exchanged: bool,
+    },
+    /// The rows of one station are read otherwise than the rest.
+    OfStation {
+        /// How they are read.
+        reading: Box<Reading>,
+        /// The station.
+        station: String,
     },
     /// Some rows alone are read otherwise.
     FromRow {
@@ -197,11 +250,19 @@ pub struct Line {
 }
 
 /// Every hypothesis about the columns of a study. Of one kind each is as likely as the others.
-pub(super) fn all(plan: &Plan, columns: &[SampledColumn], indexed: Vec<SymbolId>) -> Vec<Hypothesis> {
+pub(super) fn all(
+    plan: &Plan,
+    columns: &[SampledColumn],
+    indexed: Vec<SymbolId>,
+    rows: &Observations,
+) -> Vec<Hypothesis> {
     let of = |is: &dyn Fn(&SampledColumn) -> bool| columns.iter().filter(|column| is(column)).collect();
     let joints: Vec<&SampledColumn> = of(&|column| is_joint(plan, column));
     let observed: Vec<&SampledColumn> = of(&|column| matches!(column.read, Read::Observed(_)));
-    let tried = Tried { plan, joints, observed, indexed };
+    let measured: Vec<SymbolId> =
+        plan.sources.iter().filter_map(|source| range_of(&plan.chain, source.observable)).collect();
+    let ranges = of(&|column| matches!(column.read, Read::Reading(id) if measured.contains(&id)));
+    let tried = Tried { plan, joints, ranges, observed, rows, indexed };
     let mut all = Vec::new();
     for kind in KINDS {
         let mut own = kind(&tried);
@@ -220,15 +281,15 @@ pub(super) fn is_joint(plan: &Plan, column: &SampledColumn) -> bool {
     }
 }
 
-/// Columns that one habit may spoil: all joints, all that was observed, both, and each alone.
+/// Columns that one habit may spoil: all joints, all that was observed, all with ranges, and each alone.
 fn sets<'a>(tried: &Tried<'a>, may: impl Fn(&SampledColumn) -> bool) -> Vec<Vec<&'a SampledColumn>> {
     let of = |columns: &[&'a SampledColumn]| columns.iter().copied().filter(|column| may(column)).collect();
     let (joints, observed): (Vec<&SampledColumn>, Vec<&SampledColumn>) =
         (of(&tried.joints), of(&tried.observed));
-    let both = [joints.clone(), observed.clone()].concat();
-    let each: Vec<Vec<&SampledColumn>> = both.iter().map(|column| vec![*column]).collect();
+    let all = [joints.clone(), observed.clone(), of(&tried.ranges)].concat();
+    let each: Vec<Vec<&SampledColumn>> = all.iter().map(|column| vec![*column]).collect();
     let mut sets: Vec<Vec<&SampledColumn>> = Vec::new();
-    for set in [joints, observed, both].into_iter().chain(each) {
+    for set in [joints, observed, all].into_iter().chain(each) {
         if !set.is_empty() && !sets.contains(&set) {
             sets.push(set);
         }

@@ -31,16 +31,9 @@ fn of_source(tried: &Tried<'_>, source: usize) -> Vec<Hypothesis> {
 
 fn ordered(tried: &Tried<'_>, own: &[&SampledColumn], order: &'static str, from: [usize; 4]) -> Hypothesis {
     let pairs = || own.iter().zip(from).map(|(column, from)| (*column, own[from]));
-    Hypothesis {
-        reading: Reading::Order { columns: names(own), order },
-        changes: pairs()
-            .map(|(column, from)| Changed::all(column.place, Change::Exchanged(from.place)))
-            .collect(),
-        lines: pairs().map(|(column, from)| line(tried.plan, column, &from.name, Vec::new())).collect(),
-        headings: Vec::new(),
-        price: ORDER_PRICE,
-        digits: 0.0,
-    }
+    let exchanged = pairs().map(|(column, from)| Changed::all(column.place, Change::Exchanged(from.place)));
+    let lines = pairs().map(|(column, from)| line(tried.plan, column, &from.name, Vec::new())).collect();
+    Hypothesis::new(Reading::Order { columns: names(own), order }, exchanged.collect(), lines, ORDER_PRICE)
 }
 
 /// The rotation that turns the other way about the same axis.
@@ -49,12 +42,7 @@ fn inverse(tried: &Tried<'_>, parts: &[&SampledColumn]) -> Hypothesis {
         let how = beside_unit(column, [("sign", "-1".to_owned())]);
         line(tried.plan, column, &column.name, how)
     };
-    Hypothesis {
-        reading: Reading::Inverse { columns: names(parts) },
-        changes: parts.iter().map(|own| Changed::all(own.place, Change::Reversed(0.0))).collect(),
-        lines: parts.iter().map(reversed).collect(),
-        headings: Vec::new(),
-        price: ORDER_PRICE,
-        digits: 0.0,
-    }
+    let changes = parts.iter().map(|own| Changed::all(own.place, Change::Reversed(0.0))).collect();
+    let lines = parts.iter().map(reversed).collect();
+    Hypothesis::new(Reading::Inverse { columns: names(parts) }, changes, lines, ORDER_PRICE)
 }

@@ -11,17 +11,15 @@ const PAIRS: f64 = 2.0;
 
 pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
     let notation = Notation::Degrees;
-    let hypothesis = |set: Vec<&SampledColumn>| Hypothesis {
-        reading: Reading::Packed { columns: names(&set), notation: notation.name() },
-        changes: set.iter().map(|column| Changed::all(column.place, Change::Notation(notation))).collect(),
-        lines: set
-            .iter()
-            .map(|column| line(tried.plan, column, &column.name, vec![("notation", quoted(notation.name()))]))
-            .collect(),
-        headings: Vec::new(),
-        price: PACKED_PRICE,
+    let how = || vec![("notation", quoted(notation.name()))];
+    let hypothesis = |set: Vec<&SampledColumn>| {
+        let changes =
+            set.iter().map(|column| Changed::all(column.place, Change::Notation(notation))).collect();
+        let lines = set.iter().map(|column| line(tried.plan, column, &column.name, how())).collect();
+        let reading = Reading::Packed { columns: names(&set), notation: notation.name() };
         // Of a hundred pairs of digits sixty are below 60.
-        digits: set.iter().map(|column| -0.6_f64.ln() * PAIRS * column.written.len() as f64).sum(),
+        let digits = set.iter().map(|column| -0.6_f64.ln() * PAIRS * column.written.len() as f64).sum();
+        Hypothesis { digits, ..Hypothesis::new(reading, changes, lines, PACKED_PRICE) }
     };
     sets(tried, is_packed).into_iter().map(hypothesis).collect()
 }

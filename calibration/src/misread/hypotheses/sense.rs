@@ -10,23 +10,11 @@ use study::{Change, Changed, SampledColumn};
 
 pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
     let of_column = |column: &&SampledColumn| {
-        let own = |reading: Reading, change: Change, offset: Option<&str>, price: f64| Hypothesis {
-            reading,
-            changes: vec![Changed::all(column.place, change)],
-            lines: vec![line(
-                tried.plan,
-                column,
-                &column.name,
-                beside_unit(
-                    column,
-                    [("sign", "-1".to_owned())]
-                        .into_iter()
-                        .chain(offset.map(|offset| ("offset", offset.to_owned()))),
-                ),
-            )],
-            price,
-            headings: Vec::new(),
-            digits: 0.0,
+        let own = |reading: Reading, change: Change, offset: Option<&str>, price: f64| {
+            let offset = offset.map(|offset| ("offset", offset.to_owned()));
+            let how = beside_unit(column, [("sign", "-1".to_owned())].into_iter().chain(offset));
+            let lines = vec![line(tried.plan, column, &column.name, how)];
+            Hypothesis::new(reading, vec![Changed::all(column.place, change)], lines, price)
         };
         let name = || column.name.clone();
         let reversed = own(Reading::Reversed { column: name() }, Change::Reversed(0.0), None, 0.0);

@@ -13,14 +13,11 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
     for set in sets.iter().filter(|set| !set.is_empty()) {
         for by in [1, -1] {
             let how = |column: &SampledColumn| beside_unit(column, [("shift", by.to_string())]);
-            all.push(Hypothesis {
-                reading: Reading::Shifted { columns: names(set), by },
-                changes: set.iter().map(|column| Changed::all(column.place, Change::Shift(by))).collect(),
-                lines: set.iter().map(|column| line(tried.plan, column, &column.name, how(column))).collect(),
-                headings: Vec::new(),
-                price: SHIFTED_PRICE,
-                digits: 0.0,
-            });
+            let changes = set.iter().map(|column| Changed::all(column.place, Change::Shift(by))).collect();
+            let lines =
+                set.iter().map(|column| line(tried.plan, column, &column.name, how(column))).collect();
+            let reading = Reading::Shifted { columns: names(set), by };
+            all.push(Hypothesis::new(reading, changes, lines, SHIFTED_PRICE));
         }
     }
     all

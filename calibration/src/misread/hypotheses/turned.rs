@@ -20,14 +20,10 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
         QUARTERS.map(|quarters| {
             let by_deg = 90 * quarters;
             let how = beside_unit(column, [("offset", format!("\"{by_deg} deg\""))]);
-            Hypothesis {
-                reading: Reading::Turned { column: column.name.clone(), by_deg },
-                changes: vec![Changed::all(column.place, Change::Moved(FRAC_PI_2 * f64::from(quarters)))],
-                lines: vec![line(tried.plan, column, &column.name, how)],
-                headings: Vec::new(),
-                price: TURNED_PRICE,
-                digits: 0.0,
-            }
+            let changes = vec![Changed::all(column.place, Change::Moved(FRAC_PI_2 * f64::from(quarters)))];
+            let lines = vec![line(tried.plan, column, &column.name, how)];
+            let reading = Reading::Turned { column: column.name.clone(), by_deg };
+            Hypothesis::new(reading, changes, lines, TURNED_PRICE)
         })
     };
     tried.joints.iter().filter(may_be).flat_map(of_column).collect()

@@ -84,6 +84,12 @@ impl Plan {
         self.sources.iter().any(|source| !source.uncertain.sigma.is_empty())
     }
 
+    /// Whether a component that a source observes has this key in `[observed]`.
+    #[must_use]
+    pub fn has_observed_key(&self, source: usize, key: &str) -> bool {
+        self.sources.get(source).is_some_and(|source| source.observed_keys.iter().any(|own| *own == key))
+    }
+
     /// The key in `[observed]` of a component that a source observes.
     #[must_use]
     pub fn observed_key(&self, source: usize, component: usize) -> &'static str {

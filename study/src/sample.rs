@@ -9,7 +9,7 @@ use super::conversion::{Conversion, Notation, to_digits};
 use super::labels::Numbered;
 use super::plan::Plan;
 use super::rows::Rows;
-use super::undeclared::{Labelled, Undeclared};
+use super::undeclared::{Beside, Labelled, Undeclared};
 use observe::Observations;
 use tables::formats::DataError;
 
@@ -38,6 +38,8 @@ struct Sampled {
     rows: Rows,
     /// To which block of rows that follow each other each belongs.
     block: Vec<usize>,
+    /// Numbers of the same rows in columns that the study does not name.
+    beside: Vec<Beside>,
 }
 
 /// A sample decides nothing of whether two sets of data are the same.
@@ -114,6 +116,13 @@ pub enum Change {
     Exchanged(Place),
     /// Rows take the number of the row that stands so many before.
     Shift(i64),
+    /// It is what a column that the study does not name has more than it.
+    Short {
+        /// That column, among those beside.
+        of: usize,
+        /// What its numbers are multiplied by to be in SI.
+        in_si: f64,
+    },
 }
 
 /// A column with how it is read otherwise.
@@ -142,8 +151,9 @@ impl Sample {
         let undeclared = rows.undeclared.clone();
         let block = blocks(&kept);
         let rows = rows.select(&kept);
+        let beside = undeclared.numbers(&rows.row_numbers);
         self.undeclared.push(undeclared);
-        self.sources.push(Sampled { columns: columns.clone(), rows, block });
+        self.sources.push(Sampled { columns: columns.clone(), rows, block, beside });
     }
 
     /// Columns that the study does not name and of which a few values come back in all rows of some observations of one source.
@@ -153,6 +163,12 @@ impl Sample {
             [only] => only.of(observations),
             _ => Vec::new(),
         }
+    }
+
+    /// Columns of numbers of a source that the study does not name.
+    #[must_use]
+    pub fn beside(&self, source: usize) -> &[Beside] {
+        self.sources.get(source).map_or(&[], |own| &own.beside)
     }
 
     /// How the files of each source write what was observed, column by column.
@@ -236,6 +252,10 @@ impl Sampled {
                 }
                 Change::Reversed(from) => own.iter().map(|si| from - si).collect(),
                 Change::Moved(by) => own.iter().map(|si| si + by).collect(),
+                Change::Short { of, in_si } => {
+                    let other = self.beside.get(of).map_or(&[][..], |beside| &beside.numbers);
+                    own.iter().zip(other).map(|(si, other)| other * in_si - si).collect()
+                }
                 Change::Exchanged(other) => self.rows.numbers[other.column].clone(),
                 Change::Shift(by) => {
                     let from = |row: usize| {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use observe::Observations;
+use observe::{Numbers, Observations};
 use tables::formats::{Cells, Form, TableReader, Wanted};
 
 /// Columns of a file that are looked at, at most.
@@ -18,6 +18,15 @@ pub struct Undeclared {
     pub column: String,
     /// The number of each row's value.
     pub of_row: Vec<usize>,
+}
+
+/// A column of numbers that no study names.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Beside {
+    /// Its name in the file.
+    pub name: String,
+    /// As the file has them, a number for each row of a sample.
+    pub numbers: Vec<f64>,
 }
 
 /// Columns while a file is read: of each the values by the number of their row.
@@ -58,6 +67,16 @@ impl Labelled {
     /// Forgets all: rows are too many for what hangs on a few values.
     pub fn forget(&mut self) {
         self.columns.clear();
+    }
+
+    /// The columns of which each of some rows, by their numbers, has a number.
+    pub fn numbers(&self, rows: &Numbers) -> Vec<Beside> {
+        let of_column = |(name, values): &(String, BTreeMap<u64, String>)| {
+            let numbers =
+                rows.iter().map(|row| values.get(&row)?.parse().ok().filter(|own: &f64| own.is_finite()));
+            Some(Beside { name: name.clone(), numbers: numbers.collect::<Option<_>>()? })
+        };
+        self.columns.iter().filter_map(of_column).collect()
     }
 
     /// The columns of which every one of some observations has a value, and few of them.

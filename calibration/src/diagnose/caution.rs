@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::ladder::{Ladder, RungName};
 use super::noise::NoiseFound;
 use super::uneven::Uneven;
-use crate::misread::{Implausible, Misread, Strayed};
+use crate::misread::{ByTheClock, Implausible, Misread, Strayed};
 use fit::FitResult;
 use observe::SiUnit;
 
@@ -291,6 +291,9 @@ pub enum Caution {
         /// Which.
         values: Vec<Implausible>,
     },
+    /// A wrong clock explains a zero as well.
+    #[serde(rename = "a clock, or a zero")]
+    ByTheClock(ByTheClock),
     /// Rows of an object lie at two places.
     #[serde(rename = "rows at two places")]
     TwoPlaces(super::two_places::TwoPlaces),

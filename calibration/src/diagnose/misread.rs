@@ -3,7 +3,7 @@
 use super::caution::Caution;
 use super::ended::Ended;
 use super::rms::BeforeAfter;
-use crate::misread::{Misread, implausible, strayed};
+use crate::misread::{Misread, by_the_clock, implausible, strayed};
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 
@@ -33,6 +33,7 @@ pub(super) fn misread(
         let own = strayed(&request.plan.places.stations, unknowns, &fit.values);
         cautions.extend(own.map(Caution::StationsStrayed));
     }
+    cautions.extend(by_the_clock(request.plan, request.observations, fit).map(Caution::ByTheClock));
     let values = implausible(&last.chain, request.observations, fit, &request.plan.plausible);
     if !values.is_empty() {
         cautions.insert(0, Caution::Implausible { values });

@@ -5,6 +5,7 @@ use fit::align_robustly;
 use model_core::exact::Path;
 use nalgebra::UnitQuaternion;
 
+use super::clock::whole_hours;
 use super::hypotheses::{Hypothesis, Reading};
 use super::policy::{FRAME_PRICE, MOST_TILT_RAD, RARE};
 use network::is_in_a_line;
@@ -47,7 +48,8 @@ pub(super) fn turned(observations: &Observations, turn: &UnitQuaternion<f64>) ->
 /// The three numbers of a turn cost what three errors do.
 pub(super) fn hypothesis(observations: &Observations, turn: &UnitQuaternion<f64>) -> Hypothesis {
     let axis = turn.axis().map_or([0.0; 3], |axis| axis.into_inner().into());
-    let reading = Reading::Frame { by_deg: turn.angle().to_degrees(), axis };
+    let reading =
+        Reading::Frame { by_deg: turn.angle().to_degrees(), axis, hours: whole_hours(turn.angle()) };
     let price = FRAME_PRICE - RARE.ln() + 1.5 * (observations.rows() as f64).ln();
     Hypothesis::new(reading, Vec::new(), Vec::new(), price)
 }

@@ -4,6 +4,7 @@
 //! Each hypothesis (`hypotheses`, one file a kind) reads some rows otherwise. All are compared by one likelihood of the numbers as the
 //! file has them (`score`), with a prior on the errors of the declaration (`prior`). One that wins by the margin of `policy` is told.
 
+mod clock;
 mod frame;
 mod hypotheses;
 mod policy;
@@ -20,6 +21,8 @@ use serde::Serialize;
 use observe::SiUnit;
 use study::{Plan, Sample};
 
+pub use clock::ByTheClock;
+pub(crate) use clock::by_the_clock;
 use hypotheses::Written;
 pub use hypotheses::{Heading, Line, Reading, StatedPlaces};
 pub use policy::THRESHOLDS;
@@ -44,6 +47,9 @@ pub struct Misread {
     pub after: f64,
     /// Their unit.
     pub unit: SiUnit,
+    /// What is implausible of the study's own reading, where that leaves as small a residual.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub needs: Option<Implausible>,
     /// Logarithm of how much better the first explains the data, prices and priors counted.
     pub margin: f64,
 }
@@ -106,6 +112,7 @@ fn told(trial: &Trial<'_>, mut readings: Vec<Tried>, as_read: &Score, margin: f6
     let top = readings.first()?.score.total;
     readings.retain(|tried| top - tried.score.total <= ONE_OF);
     let after = readings.first()?.score.rms;
+    let needs = (after > RATIO * as_read.rms).then(|| trial.beyond(as_read)).flatten();
     let suspects = readings.into_iter().map(|Tried { hypothesis, score, .. }| Suspect {
         reading: hypothesis.reading,
         lines: hypothesis.lines.iter().map(Written::line).collect(),
@@ -116,6 +123,7 @@ fn told(trial: &Trial<'_>, mut readings: Vec<Tried>, as_read: &Score, margin: f6
         readings: suspects.collect(),
         before: as_read.rms,
         after,
+        needs,
         unit: trial.own.poses.series.first()?.measure.unit(),
         margin,
     })

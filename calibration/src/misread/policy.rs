@@ -57,6 +57,8 @@ pub(super) const MOST_TILT_RAD: f64 = PI / 36.0;
 pub(super) const MOST_LENGTH_SHARE: f64 = 0.1;
 pub(super) const MOST_RESIDUAL_SHARE: f64 = 0.03;
 
+/// A turn by so much less or more than whole hours may be a clock's, rad: what the errors of an instrument add.
+pub(super) const CLOCK_RAD: f64 = PI / 360.0;
 /// Stations are not where a study roughly puts them where most are off by more than this, as a share of how far away objects are and in rad
 /// together.
 pub(super) const FAR: f64 = 0.5;
@@ -240,6 +242,12 @@ pub const THRESHOLDS: &[Threshold] = &[
         TRIALS,
     ),
     Threshold::new("prior.beyond", BEYOND, "nats that an error beyond its limit costs a reading", FRAMED),
+    Threshold::new(
+        "misread.clock_rad",
+        CLOCK_RAD,
+        "how far from whole hours a turn may be that is said to be a clock's",
+        "judgement: errors of a mount, a third of a degree at most, are added to it",
+    ),
     Threshold::new(
         "plausible.far",
         FAR,

@@ -69,7 +69,14 @@ impl Priors {
 
     /// Whether an error is too large to be one.
     pub fn is_beyond(&self, values: &[f64]) -> bool {
-        self.scales.iter().any(|own| values[own.error.index()].abs() > own.limit)
+        self.beyond(values).is_some()
+    }
+
+    /// The error that is most times its limit, with that limit; `None` where none is beyond its own.
+    pub fn beyond(&self, values: &[f64]) -> Option<(SymbolId, f64)> {
+        let times = |own: &Scaled| values[own.error.index()].abs() / own.limit;
+        let most = self.scales.iter().max_by(|one, other| times(one).total_cmp(&times(other)))?;
+        (times(most) > 1.0).then_some((most.error, most.limit))
     }
 }
 

@@ -11,7 +11,7 @@ use study::{Changed, Plan, Sample, SampledColumn};
 
 use super::hypotheses::{self, Hypothesis, QUARTERS, Reading, both, from_row};
 use super::policy::{FITTED, OBJECT_STEPS, PAIRED, PARTS, ROUGH_SHARE, SCREENED_STEPS};
-use super::prior::{Priors, indexed};
+use super::prior::{Implausible, Priors, indexed};
 use super::score::{Score, jacobian, score, trimmed, written};
 use super::{explains, frame, size, states, strayed};
 
@@ -64,6 +64,14 @@ impl<'a> Trial<'a> {
 
     /// Whether a reading needs an error that is too large to be one, or leaves a large part of what was measured.
 
+    /// The error that a reading needs and that is furthest beyond its limit.
+    pub fn beyond(&self, score: &Score) -> Option<Implausible> {
+        let (error, limit) = self.priors.beyond(&score.values)?;
+        let symbol = self.plan.chain.symbol(error);
+        let value = score.values[error.index()];
+        Some(Implausible::Error { name: symbol.name.clone(), value, limit, unit: symbol.quantity.into() })
+    }
+
     /// The score of the study's own reading. It alone is worth other starts: most other readings are wrong and end far off.
     pub fn as_read(&self) -> Option<Score> {
         if self.own.unknowns.is_some() {
@@ -100,7 +108,7 @@ impl<'a> Trial<'a> {
     /// The other readings that come out best, fitted to the end, the best first.
     pub fn others(&self, as_read: &Score) -> Vec<Tried> {
         let indexed = indexed(self.plan, &self.own).into_iter().map(|(joint, _)| joint).collect();
-        let all = hypotheses::all(self.plan, &self.columns, indexed, &self.own);
+        let all = hypotheses::all(self.plan, &self.columns, indexed, (&self.own, self.sample));
         if self.own.unknowns.is_some() {
             return self.nearest(all);
         }

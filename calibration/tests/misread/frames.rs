@@ -34,7 +34,9 @@ fn a_clock_that_is_three_hours_off_turns_the_sky_about_the_pole() {
     let pole = [0.0, latitude.cos(), latitude.sin()];
     let made = calibrated(MOUNT, &plain_mount(), &in_turned_sky(541, 40, pole, 45.0));
     let found = misread(&made);
-    let Reading::Frame { by_deg, axis } = &found.readings[0].reading else { panic!("{found:?}") };
+    let Reading::Frame { by_deg, axis, hours: Some(3) } = &found.readings[0].reading else {
+        panic!("{found:?}")
+    };
     assert!(found.readings.len() == 1 && found.readings[0].lines.is_empty());
     assert!((by_deg - 45.0).abs() < 0.1, "{by_deg}");
     // It turns back.

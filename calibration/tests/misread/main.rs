@@ -7,6 +7,7 @@
 )]
 
 mod frames;
+mod sky;
 
 use std::f64::consts::PI;
 

@@ -88,7 +88,7 @@ fn radii_that_are_read_wrongly_are_told() {
     let folder = cranks("cranks-radii");
     let rows = folder.read("rings.csv");
     let (head, rows) = rows.split_once('\n').expect("a heading");
-    for (factor, told) in [(2.0, "the radii are doubled"), (1e-3, "the radii are in m and read as mm")] {
+    for (factor, told) in [(2.0, "are twice what the study takes them for"), (1e-3, "is in m, not mm")] {
         let mut wrong = format!("{head}\n");
         for row in rows.lines() {
             let (readings, radius) = row.rsplit_once(',').expect("a radius");

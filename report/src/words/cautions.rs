@@ -239,6 +239,7 @@ pub fn caution(caution: &Caution) -> String {
         },
         Caution::ColumnMisread(misread) => columns::told(misread),
         Caution::Implausible { values } => columns::implausible(values),
+        Caution::ByTheClock(own) => columns::by_the_clock(own),
         Caution::StationsStrayed(own) => columns::strayed(own),
         Caution::Moved(own) => moved(own),
         Caution::LengthsOff(own) => lengths_off(own),

@@ -3,17 +3,13 @@
 use super::numbers::short;
 use super::step::Step;
 use calibration::diagnose::{Caution, Diagnosis};
-use calibration::misread::{Heading, Implausible, Line, Misread, Reading, StatedPlaces, Strayed, Suspect};
+use calibration::misread::{
+    ByTheClock, Heading, Implausible, Line, Misread, Reading, StatedPlaces, Strayed, Suspect,
+};
 use observe::SiUnit;
 
 /// Readings that are shown where several explain the data alike.
 const SHOWN: usize = 3;
-
-/// How far the sky turns in an hour.
-const DEGREES_AN_HOUR: f64 = 15.0;
-
-/// A turn by so much less or more than whole hours may be a clock's: what the errors of the instrument add.
-const CLOCK_DEG: f64 = 0.5;
 
 /// Rows that are named.
 const ROWS_SHOWN: usize = 8;
@@ -36,8 +32,12 @@ pub(super) fn implausible_values(diagnosis: &Diagnosis) -> Option<&[Implausible]
 
 /// What is misread, and what the residual is when it is read right.
 pub(super) fn told(misread: &Misread) -> String {
-    let Misread { readings, before, after, unit, .. } = misread;
-    let residual = format!("Residual {} → {}.", short(*before, *unit), short(*after, *unit));
+    let Misread { readings, before, after, needs, unit, .. } = misread;
+    let residual = match needs {
+        // The study's own reading leaves as little, by an error that nobody makes.
+        Some(needed) => format!("As the study reads the file, {}", value(needed)),
+        None => format!("Residual {} → {}.", short(*before, *unit), short(*after, *unit)),
+    };
     match &readings[..] {
         [] => unreachable!("a misread column has a reading that explains it"),
         [one] => format!("{} {residual}", sentence(&one.reading)),
@@ -92,6 +92,10 @@ fn step(suspect: &Suspect) -> Step {
     } else if let Some(places) = of_places(&suspect.reading) {
         text.push_str(places);
         text.push(' ');
+    } else if matches!(suspect.reading, Reading::RightAscension { .. }) {
+        text.push_str(
+            "Add a column of hour angles to the file, the sidereal time less the right ascension, and name it in the study. ",
+        );
     } else if matches!(suspect.reading, Reading::Doubled { .. }) {
         text.push_str("Halve these numbers in the file. ");
     } else if suspect.lines.is_empty() && suspect.headings.is_empty() {
@@ -173,6 +177,7 @@ fn title(reading: &Reading) -> &'static str {
         Reading::Turned { .. } => "Move the zero",
         Reading::FromRow { .. } | Reading::OfStation { .. } => "Correct these rows",
         Reading::Doubled { .. } => "Halve the lengths",
+        Reading::RightAscension { .. } => "Compute the hour angle",
         Reading::PlacesExchanged { .. } => "Exchange x and y",
         Reading::PlacesUnit { .. } => "Correct the unit of the places",
         Reading::HeadingsReversed | Reading::HeadingsFromY { .. } => "Correct the headings",
@@ -213,8 +218,14 @@ fn sentence(reading: &Reading) -> String {
         Reading::OfStation { reading, station } => {
             format!("{} This applies only to the rows of station `{station}`.", sentence(reading))
         }
+        Reading::RightAscension { columns, sidereal } => {
+            let what = if columns.len() == 1 { "a right ascension" } else { "right ascensions" };
+            format!("{} {what}, not an hour angle. Column `{sidereal}` is the sidereal time.", are(columns))
+        }
         Reading::Doubled { column } => {
-            format!("Column `{column}` holds twice what the study takes it for, such as diameters for radii.")
+            format!(
+                "The numbers of column `{column}` are twice what the study takes them for, such as diameters for radii."
+            )
         }
         Reading::PlacesExchanged { of } => format!("x and y of {} are exchanged.", places(*of)),
         Reading::PlacesUnit { of, is, read } => {
@@ -248,11 +259,11 @@ fn sentence(reading: &Reading) -> String {
                 some(rows)
             )
         }
-        Reading::Frame { by_deg, axis: [x, y, z] } => {
+        Reading::Frame { by_deg, axis: [x, y, z], hours } => {
             format!(
                 "The measured directions are those of another frame. They fit once they are turned by {by_deg:.2}° about the axis \
                  ({x:.3}, {y:.3}, {z:.3}).{}",
-                hours(*by_deg)
+                hours.map(by_as_much).unwrap_or_default()
             )
         }
         Reading::Exchanged { columns: [one, other] } => {
@@ -285,12 +296,19 @@ fn places(of: StatedPlaces) -> &'static str {
     }
 }
 
-/// What the sky turns by as much in whole hours.
-fn hours(by_deg: f64) -> String {
-    let hours = (by_deg / DEGREES_AN_HOUR).round();
-    let is_whole = hours > 0.0 && (by_deg - DEGREES_AN_HOUR * hours).abs() < CLOCK_DEG;
-    let plural = if hours > 1.0 { "s" } else { "" };
-    if is_whole { format!(" The sky turns by as much in {hours:.0} hour{plural}.") } else { String::new() }
+/// A zero that a wrong clock explains as well.
+pub(super) fn by_the_clock(ByTheClock { error, value_rad, hours }: &ByTheClock) -> String {
+    format!(
+        "`{error}` is {}.{} Check the clock, the time zone and the longitude. If they are right, the zero is real.",
+        short(*value_rad, SiUnit::RAD),
+        by_as_much(*hours)
+    )
+}
+
+/// That the sky turns by as much in whole hours.
+fn by_as_much(hours: u8) -> String {
+    let plural = if hours > 1 { "s" } else { "" };
+    format!(" The sky turns by as much in {hours} hour{plural}.")
 }
 
 /// Some of the rows by their numbers.

@@ -24,6 +24,8 @@ pub struct Data {
     pub instrument: &'static Instrument,
     pub joints: Vec<Column>,
     pub observed: Vec<Column>,
+    /// Columns that the study does not name.
+    pub beside: Vec<Column>,
     pub rows: usize,
 }
 
@@ -134,12 +136,13 @@ impl Data {
             instrument,
             joints: read.into_iter().enumerate().map(joint).collect(),
             observed: observed.into_iter().enumerate().map(shown).collect(),
+            beside: Vec::new(),
             rows,
         }
     }
 
     pub fn table(&self) -> String {
-        let columns = || self.joints.iter().chain(&self.observed);
+        let columns = || self.joints.iter().chain(&self.observed).chain(&self.beside);
         let mut text = columns().map(|column| column.name.as_str()).collect::<Vec<_>>().join(",");
         for row in 0..self.rows {
             let cells: Vec<String> = columns().map(|column| format!("{:.9}", column.numbers[row])).collect();

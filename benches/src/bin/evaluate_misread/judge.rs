@@ -171,6 +171,13 @@ fn words(reading: &Reading) -> String {
         Reading::Frame { .. } => "another frame".to_owned(),
         Reading::Both { readings: [one, other] } => format!("{} and {}", words(one), words(other)),
         Reading::TwoStates { errors, .. } => format!("two kinds: {}", errors.join(" ")),
+        Reading::RightAscension { columns, .. } => format!("right ascension: {}", columns.join(" ")),
+        Reading::Doubled { column } => format!("doubled: {column}"),
+        Reading::PlacesExchanged { .. }
+        | Reading::PlacesUnit { .. }
+        | Reading::HeadingsReversed
+        | Reading::HeadingsFromY { .. } => "stated places".to_owned(),
+        Reading::OfStation { reading, .. } => format!("of a station, {}", words(reading)),
         Reading::Shifted { columns, by } => format!("rows {by}: {}", columns.join(" ")),
     }
 }

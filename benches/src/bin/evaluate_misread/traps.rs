@@ -148,6 +148,10 @@ fn any(_: &Instrument) -> bool {
     true
 }
 
+fn equatorial(instrument: &Instrument) -> bool {
+    instrument.name == "equatorial"
+}
+
 fn spherical(instrument: &Instrument) -> bool {
     instrument.observed == Observed::Spherical
 }
@@ -382,6 +386,25 @@ pub const TRAPS: &[Trap] = &[
             let axis = [random.normal(), random.normal(), random.normal()];
             let size = axis.iter().map(|value| value * value).sum::<f64>().sqrt();
             sky_turned(data, axis.map(|value| value / size), 0.3 + 2.0 * random.even())
+        },
+    },
+    Trap {
+        name: "right ascensions for hour angles, sidereal time in hours beside",
+        on: equatorial,
+        spoil: |data, random| {
+            let began = 24.0 * random.even();
+            let along: Vec<f64> =
+                (0..data.rows).map(|row| began + 5.0 * row as f64 / data.rows as f64).collect();
+            let sidereal_hours: Vec<f64> = along.iter().map(|hours| hours.rem_euclid(24.0)).collect();
+            let (joint, shown) = (&mut data.joints[0], &mut data.observed[0]);
+            for column in [&mut *joint, &mut *shown] {
+                let own = column.numbers.iter_mut().zip(&sidereal_hours);
+                own.for_each(|(angle, hours)| *angle = (15.0 * hours - *angle).rem_euclid(360.0));
+            }
+            let names = vec![format!("right ascension: {} {}", joint.name, shown.name)];
+            data.beside =
+                vec![Column { name: "lst".to_owned(), key: "", unit: None, numbers: sidereal_hours }];
+            names
         },
     },
     Trap { name: "joints one row off", on: any, spoil: |data, _| shifted(&mut data.joints, 1) },

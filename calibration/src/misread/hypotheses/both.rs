@@ -19,6 +19,7 @@ pub(in crate::misread) fn stage(reading: &Reading) -> Option<u8> {
         Reading::Reversed { .. }
         | Reading::FromZenith { .. }
         | Reading::Turned { .. }
+        | Reading::RightAscension { .. }
         | Reading::Inverse { .. }
         | Reading::HeadingsReversed
         | Reading::HeadingsFromY { .. } => Some(3),

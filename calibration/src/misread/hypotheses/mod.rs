@@ -11,6 +11,7 @@ mod packed;
 pub(super) mod places;
 mod sense;
 mod shifted;
+mod sidereal;
 mod turned;
 mod unit;
 mod written;
@@ -22,7 +23,7 @@ use serde::Serialize;
 use super::policy::RARE;
 use fit::range_of;
 use observe::{Observations, SiUnit};
-use study::{Change, Changed, Notation, Plan, Read, SampledColumn};
+use study::{Change, Changed, Notation, Plan, Read, Sample, SampledColumn};
 pub(super) use written::Written;
 
 use places::PlaceChange;
@@ -35,6 +36,7 @@ const KINDS: &[fn(&Tried<'_>) -> Vec<Hypothesis>] = &[
     counts::tried,
     packed::tried,
     sense::tried,
+    sidereal::tried,
     turned::tried,
     exchanged::tried,
     order::tried,
@@ -55,6 +57,8 @@ pub(super) struct Tried<'a> {
     pub observed: Vec<&'a SampledColumn>,
     /// The rows as the study reads them.
     pub rows: &'a Observations,
+    /// The same with all columns of the file.
+    pub sample: &'a Sample,
     /// Joints whose zero is estimated.
     pub indexed: Vec<SymbolId>,
 }
@@ -131,6 +135,13 @@ pub enum Reading {
         /// The column of the file.
         column: String,
     },
+    /// Columns are right ascensions, read as hour angles: what a sidereal time that the study does not name has more is the hour angle.
+    RightAscension {
+        /// The columns of the file.
+        columns: Vec<String>,
+        /// The column of the sidereal time.
+        sidereal: String,
+    },
     /// A column counts from elsewhere.
     Turned {
         /// The column of the file.
@@ -198,6 +209,9 @@ pub enum Reading {
         by_deg: f64,
         /// About which axis, a unit vector.
         axis: [f64; 3],
+        /// The whole hours in which the sky turns by as much.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        hours: Option<u8>,
     },
     /// Two mistakes at once.
     Both {
@@ -254,7 +268,7 @@ pub(super) fn all(
     plan: &Plan,
     columns: &[SampledColumn],
     indexed: Vec<SymbolId>,
-    rows: &Observations,
+    (rows, sample): (&Observations, &Sample),
 ) -> Vec<Hypothesis> {
     let of = |is: &dyn Fn(&SampledColumn) -> bool| columns.iter().filter(|column| is(column)).collect();
     let joints: Vec<&SampledColumn> = of(&|column| is_joint(plan, column));
@@ -262,7 +276,7 @@ pub(super) fn all(
     let measured: Vec<SymbolId> =
         plan.sources.iter().filter_map(|source| range_of(&plan.chain, source.observable)).collect();
     let ranges = of(&|column| matches!(column.read, Read::Reading(id) if measured.contains(&id)));
-    let tried = Tried { plan, joints, ranges, observed, rows, indexed };
+    let tried = Tried { plan, joints, ranges, observed, rows, sample, indexed };
     let mut all = Vec::new();
     for kind in KINDS {
         let mut own = kind(&tried);

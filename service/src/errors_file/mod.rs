@@ -96,8 +96,11 @@ fn range_of(
     (name, range): (Spanned<String>, Spanned<toml::Value>),
 ) -> Result<(Spanned<String>, Spanned<[Amount; 2]>), Refusal> {
     let place = range.span();
-    match <[Amount; 2]>::deserialize(range.into_inner()) {
+    let range = range.into_inner();
+    let is_pair = range.as_array().is_some_and(|bounds| bounds.len() == 2);
+    match <[Amount; 2]>::deserialize(range) {
         Ok(bounds) => Ok((name, Spanned::new(place, bounds))),
+        Err(error) if is_pair => Err(source.mistake(Mistake::new(place, error.message()))),
         Err(_) => {
             let mistake = Mistake::new(place, format!("`{}` has no two bounds", name.get_ref()));
             Err(source.mistake(mistake.with_help("write both in a list, as in [\"10 deg\", \"80 deg\"]")))

@@ -3,13 +3,14 @@
 use std::path::Path;
 
 use model_core::{Chain, Mistakes};
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 use quote::quote;
 
 use crate::expand::{self, Names};
+use crate::report;
 
-/// The expansion of the file that a string literal names, or a message.
-pub fn expand(input: TokenStream) -> Result<TokenStream, String> {
+/// The expansion of the file that a string literal names, which stands at `span`, or a message.
+pub fn expand(input: TokenStream, span: Span) -> Result<TokenStream, String> {
     let path = syn::parse2::<syn::LitStr>(input)
         .map_err(|_| {
             "expected the path of a file in quotes: write `chain_file!(\"instruments/lidar.chain\")`"
@@ -25,8 +26,10 @@ pub fn expand(input: TokenStream) -> Result<TokenStream, String> {
     let module = expand::module(&chain, &Names::default()).map_err(|mistakes| {
         mistakes.iter().map(|mistake| mistake.message.as_str()).collect::<Vec<_>>().join("\n")
     })?;
+    let doubts = report::doubts(&chain, &Names::default(), span);
     Ok(quote! {
         #module
+        #doubts
         // The compiler rebuilds what includes a file when the file changes.
         const _: &[u8] = ::core::include_bytes!(::core::concat!(::core::env!("CARGO_MANIFEST_DIR"), "/", #path));
     })

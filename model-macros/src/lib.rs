@@ -8,6 +8,7 @@ mod file;
 mod report;
 
 use proc_macro2::Span;
+use quote::quote;
 
 use expand::Names;
 
@@ -35,8 +36,12 @@ use expand::Names;
 /// chapter on the macro shows the whole of it.
 #[proc_macro]
 pub fn chain(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
-    let result = model_core::validate::read(input.into())
-        .and_then(|(declaration, chain)| expand::module(&chain, &Names::of(&declaration)));
+    let result = model_core::validate::read(input.into()).and_then(|(declaration, chain)| {
+        let names = Names::of(&declaration);
+        let module = expand::module(&chain, &names)?;
+        let doubts = report::doubts(&chain, &names, Span::call_site());
+        Ok(quote! { #module #doubts })
+    });
     result.unwrap_or_else(|mistakes| report::at_tokens(&mistakes)).into()
 }
 
@@ -53,5 +58,5 @@ pub fn chain_file(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
         .into_iter()
         .next()
         .map_or_else(Span::call_site, |token| token.span());
-    file::expand(input.into()).unwrap_or_else(|message| report::at(span, &message)).into()
+    file::expand(input.into(), span).unwrap_or_else(|message| report::at(span, &message)).into()
 }

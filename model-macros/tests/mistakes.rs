@@ -19,7 +19,10 @@ fn cases() -> Vec<PathBuf> {
 
 #[test]
 fn wrong_declarations_do_not_compile() {
-    trybuild::TestCases::new().compile_fail("../tests/ui/*.rs");
+    let cases = trybuild::TestCases::new();
+    cases.compile_fail("../tests/ui/*.rs");
+    // A name that is most likely misspelt is a warning at its token, which is an error where warnings are.
+    cases.compile_fail("../tests/ui/warned/*.rs");
 }
 
 #[test]

@@ -1,15 +1,17 @@
 //! A calibration for the terminal: the five answers first, then values; everything else with `--verbose`.
 
+mod answer;
+
 use std::fmt::Write as _;
 
-use crate::words::{self, Answers, EstimateLine, Tone, numbers, sentence_case};
+use crate::words::{self, EstimateLine, numbers, sentence_case};
 use anstyle::Style;
 use calibration::diagnose::{Diagnosis, EffectFound, Rms};
 use model_core::escape::{Screen, line};
 use observe::SiUnit;
 use similar::TextDiff;
 
-use crate::style::{BAD, CAREFUL, GOOD, HEADING};
+use crate::style::HEADING;
 use crate::wrap::paragraph;
 use crate::{Reported, outliers};
 
@@ -34,7 +36,8 @@ pub fn as_text(reported: &Reported<'_>, layout: Layout) -> Screen {
     let diagnosis = &reported.calibration.diagnosis;
     let answers = words::answers(diagnosis, reported.folder, &reported.provenance.command);
     let mut page = Page { text: Screen::default(), layout };
-    page.answers(&answers, diagnosis);
+    page.answer(&answers, diagnosis);
+    page.in_full(&answers);
     page.residuals(diagnosis);
     page.models(diagnosis);
     page.values(diagnosis);
@@ -127,61 +130,6 @@ impl Page {
         }
     }
 
-    fn answers(&mut self, answers: &Answers, diagnosis: &Diagnosis) {
-        let style = match answers.tone {
-            Tone::Good => GOOD,
-            Tone::Ambiguous | Tone::Careful => CAREFUL,
-            Tone::Bad => BAD,
-        };
-        self.styled(style, &answers.badge.to_uppercase());
-        let _ = writeln!(self.text);
-        self.say("", &answers.happened);
-        if let Some(chance) = &answers.chance {
-            self.say("", &format!("{}.", sentence_case(chance)));
-        }
-        if let Some(goal) = &answers.goal {
-            self.say("", goal);
-        }
-        // What the verdict says already is no caution beside it.
-        let cautions = diagnosis.cautions.iter().map(words::caution).filter(|own| *own != answers.happened);
-        for caution in cautions {
-            let mut told = String::new();
-            paragraph(&mut told, "Caution: ", &caution, self.layout.width);
-            self.styled(CAREFUL, "Caution");
-            let _ = write!(self.text, "{}", told.strip_prefix("Caution").unwrap_or(&told));
-        }
-        self.wanted(diagnosis);
-        if !answers.what.is_empty() {
-            self.heading("What it is");
-            answers.what.iter().for_each(|what| self.say("  ", what));
-            match answers.causes.as_slice() {
-                [] => {}
-                [one] => self.say("  ", &format!("Likely cause: {one}.")),
-                causes => {
-                    self.say("  ", "Possible causes, each to be checked:");
-                    let most = if self.layout.verbose { usize::MAX } else { 2 * LINES };
-                    causes.iter().take(most).for_each(|cause| self.say("  - ", cause));
-                    if causes.len() > most {
-                        self.say("  - ", &format!("and {} more", causes.len() - most));
-                    }
-                }
-            }
-        }
-        if !answers.places.is_empty() {
-            self.heading("Where");
-            answers.places.iter().for_each(|place| self.say("  ", &format!("{}.", sentence_case(place))));
-        }
-        self.heading("How much better");
-        self.say("  ", &answers.better);
-        self.heading("What to do next");
-        for (number, step) in (1..).zip(&answers.next) {
-            self.say(&format!("  {number}. "), &format!("{}. {}", step.title, step.text));
-            for line in step.command.iter().flat_map(|command| command.lines()) {
-                let _ = writeln!(self.text, "       {line}");
-            }
-        }
-    }
-
     fn residuals(&mut self, diagnosis: &Diagnosis) {
         let all = "Residual (RMS)".to_owned();
         let of = |observed: &str| format!("Residual of {observed} (RMS)");
@@ -196,11 +144,10 @@ impl Page {
     fn residuals_of(&mut self, diagnosis: &Diagnosis, title: &str, unit: SiUnit, [before, after]: [Rms; 2]) {
         let told =
             |si: Option<f64>| si.map_or_else(|| "not measured".to_owned(), |si| numbers::told(si, unit));
-        let _ = writeln!(self.text);
-        self.styled(HEADING, &format!("{title:38} {:>12} {:>12}", "before", "after"));
-        let _ = writeln!(self.text);
+        let names = self.layout.width.saturating_sub(28).clamp(24, 36);
+        self.heading(&format!("{title:0$} {1:>12} {2:>12}", names + 2, "before", "after"));
         let mut row = |name: &str, before: Option<f64>, after: Option<f64>| {
-            let _ = writeln!(self.text, "  {name:36} {:>12} {:>12}", told(before), told(after));
+            let _ = writeln!(self.text, "  {name:names$} {:>12} {:>12}", told(before), told(after));
         };
         let aside = diagnosis.observations.set_aside.len();
         row("fitted data", before.rms, after.rms);
@@ -224,10 +171,16 @@ impl Page {
         let Some(ladder) = diagnosis.ladder.as_ref().filter(|_| diagnosis.verdict.is_usable()) else {
             return;
         };
-        self.heading(&format!("{:38} {:>12}   held-out data (RMS)", "Models", "errors"));
-        for line in words::models(ladder) {
-            let mark = if line.is_simplest { "  (simplest that none beats)" } else { "" };
-            let _ = writeln!(self.text, "  {:36} {:>12}   {}{mark}", line.what, line.errors, line.held_out);
+        let lines = words::models(ladder);
+        let names = lines.iter().map(|line| line.what.chars().count()).max().unwrap_or_default();
+        self.heading(&format!("{0:1$} errors   held-out data (RMS)", "Models", names + 2));
+        for line in &lines {
+            let mark = if line.is_simplest { " ✓" } else { "" };
+            let _ =
+                writeln!(self.text, "  {:names$} {:>6}   {}{mark}", line.what, line.errors, line.held_out);
+        }
+        if lines.iter().any(|line| line.is_simplest) {
+            self.say("  ", words::SIMPLEST);
         }
         if let Some(missing) = words::missing_models(ladder).filter(|_| self.layout.verbose) {
             self.say("  ", &missing);
@@ -239,7 +192,7 @@ impl Page {
         if diagnosis.wanted.is_empty() || !diagnosis.verdict.is_usable() {
             return;
         }
-        self.heading("Wanted errors, with standard uncertainties");
+        self.title("Wanted errors, with standard uncertainties");
         let estimates = words::estimates(diagnosis);
         self.estimates(estimates.lines.iter().filter(|line| line.wanted));
         if let Some(missing) = words::wanted_not_shown(diagnosis) {
@@ -250,8 +203,8 @@ impl Page {
     fn estimates<'a>(&mut self, lines: impl Iterator<Item = &'a EstimateLine> + Clone) {
         let width = lines.clone().map(|line| line.what.chars().count()).max().unwrap_or_default().min(40);
         for line in lines {
-            let found = if line.found { "  (found)" } else { "" };
-            let _ = writeln!(self.text, "  {:width$}  {}{found}", line.what, line.estimate);
+            let found = if line.found { " (found)" } else { "" };
+            self.say(&format!("  {:width$}  ", line.what), &format!("{}{found}", line.estimate));
         }
     }
 

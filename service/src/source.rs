@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use model_core::mistake::{Mistake, Mistakes};
 use model_core::{Chain, ObservableId, names};
 use serde::de::DeserializeOwned;
-use study::Study;
+use study::{Study, toml_mistakes};
 
 use crate::refusal::Refusal;
 use crate::warn::Warn;
@@ -83,7 +83,7 @@ impl Source {
     /// The first mistake, with its place.
     pub fn toml<T: DeserializeOwned>(&self) -> Result<T, Refusal> {
         toml::from_str(&self.text).map_err(|error| {
-            let mistake = Mistake::new(error.span().unwrap_or_default(), error.message());
+            let mistake = toml_mistakes::mistake(&error);
             self.is_another().or_else(|| self.is_study()).unwrap_or_else(|| self.mistake(mistake))
         })
     }

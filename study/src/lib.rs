@@ -44,6 +44,7 @@ mod stated;
 mod syntax;
 mod terms;
 mod timeless;
+pub mod toml_mistakes;
 mod uncertain;
 mod uncertain_readings;
 mod undeclared;

@@ -161,9 +161,10 @@ impl Plan {
             }
             rows.sort_by_label(at);
         }
+        let before = rows.row_numbers.len();
         rows.shift(columns);
         if rows.row_numbers.is_empty() {
-            return Err(DataError::NoRows { file: rows.file });
+            return Err(DataError::ShiftedAway { file: rows.file, rows: before });
         }
         Ok(rows)
     }

@@ -55,7 +55,11 @@ pub(super) fn within(
         return Ok(());
     }
     let (least, most) = allowed.into_inner();
-    Err(plain(place, format!("{what} from {least} to {most} can be asked for, not {number}")))
+    Err(mistake(
+        place,
+        format!("{what} cannot be {number}"),
+        format!("write a number from {least} to {most}"),
+    ))
 }
 
 /// All that could be read, or every mistake.

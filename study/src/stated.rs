@@ -36,7 +36,7 @@ pub(super) fn of_readings(
     file: &str,
 ) -> Result<Vec<(SymbolId, Vec<f64>)>, DataError> {
     let is_one = |sigma: f64| sigma >= 0.0 && sigma.is_finite();
-    let why = "a reading's standard uncertainty is zero or more";
+    let why = "a reading's standard uncertainty cannot be negative: write zero or more";
     each_row(&source.uncertain.sigma, &columns.uncertain, rows, file, is_one, why)
 }
 

@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use model_core::{Mistake, Mistakes, names};
+use model_core::Mistakes;
 use serde::Deserialize as _;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue, Deserializer, Error};
 
-use super::orientation::FORMS;
+use super::toml_mistakes::mistake;
 use super::written::Study;
 
 /// Mistakes that are told of one text, at most.
@@ -36,12 +36,6 @@ impl Study {
         read(text)
     }
 }
-
-/// What three angles are called that say how a body is turned.
-const EULER: [&str; 14] = [
-    "roll", "pitch", "yaw", "heading", "omega", "phi", "kappa", "psi", "theta", "alpha", "beta", "gamma",
-    "euler", "rpy",
-];
 
 fn read(text: &str) -> Result<Study, Mistakes> {
     let (mut table, errors) = DeTable::parse_recoverable(text);
@@ -108,25 +102,4 @@ fn remove_inside(value: &mut Spanned<DeValue<'_>>, place: &Range<usize>) -> Opti
 
 fn around(span: &Range<usize>, place: &Range<usize>) -> bool {
     span.start <= place.start && place.end <= span.end && !place.is_empty()
-}
-
-/// What the reader of TOML says, with the nearest key where one is misspelt.
-fn mistake(error: &Error) -> Mistake<Range<usize>> {
-    let place = error.span().unwrap_or_default();
-    let message = error.message();
-    let unknown = ["unknown field", "unknown variant"].iter().any(|start| message.starts_with(start));
-    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
-    match quoted.split_first() {
-        Some((found, expected)) if unknown => {
-            let key = if message.starts_with("unknown field") { "key" } else { "value" };
-            let is_euler = expected.contains(&"rotation_x") && EULER.contains(&found.to_lowercase().as_str());
-            let help = match names::nearest(found, expected.iter().copied()) {
-                _ if is_euler => format!("three angles turn about other axes with every maker: give {FORMS}"),
-                Some(near) => format!("did you mean `{near}`?"),
-                None => format!("write one of {}", expected.join(", ")),
-            };
-            Mistake::new(place, format!("unknown {key} `{found}`")).with_help(help)
-        }
-        _ => Mistake::new(place, message.trim_end()),
-    }
 }

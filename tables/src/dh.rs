@@ -184,7 +184,9 @@ impl Table {
             Some("p" | "prismatic" | "linear") => Motion::Shifts,
             Some(_) => {
                 let column = self.kind.unwrap_or_default();
-                return Err(self.bad(column, row, "which is neither revolute nor prismatic,"));
+                let text = clipped(&self.cells[column][row]);
+                let why = format!("`{text}` is no kind of joint: write revolute or prismatic");
+                return Err(DataError::UnusableCell { cell: self.cell(column, row), why });
             }
         };
         let size = |at: usize, beside: Option<&str>| {
@@ -196,7 +198,10 @@ impl Table {
             let compact: String = text.split_whitespace().collect();
             let number = compact.replace(',', ".").parse().ok().or_else(|| sexagesimal(text, factor));
             let number = number.filter(|number: &f64| (number * factor).is_finite());
-            number.map(|number| number * factor).ok_or_else(|| self.bad(column, row, ""))
+            number.map(|number| number * factor).ok_or_else(|| DataError::NotANumber {
+                cell: self.cell(column, row),
+                text: clipped(&self.cells[column][row]),
+            })
         };
         let named = self.joint.map(|column| self.cells[column][row].clone()).filter(|name| !name.is_empty());
         let by_variable = if motion == Motion::Turns { theta } else { d };
@@ -212,15 +217,13 @@ impl Table {
         })
     }
 
-    fn bad(&self, column: usize, row: usize, why: &str) -> DataError {
-        let cell = Cell {
+    fn cell(&self, column: usize, row: usize) -> Cell {
+        Cell {
             file: self.file.clone(),
             line: self.lines.get(row).copied(),
             row: row as u64 + 1,
             column: self.names[column].clone(),
-        };
-        let text = clipped(&self.cells[column][row]);
-        DataError::NotANumber { cell, text: if why.is_empty() { text } else { format!("{text}, {why}") } }
+        }
     }
 }
 

@@ -12,7 +12,7 @@ use crate::diagnose::rms::{BeforeAfter, Worse, worse};
 use crate::search::context::{Context, Found};
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
-use crate::search::{HeldOut, SearchError, Stage};
+use crate::search::{HeldOut, SearchError};
 use fit::FitResult;
 
 /// Fewer observations than this are no evidence of an effect.
@@ -40,7 +40,6 @@ pub(super) fn judged<'a>(
     before: &FitResult,
     round: Round<'a>,
 ) -> Result<Judged<'a>, SearchError> {
-    (whole.tell)(Stage::HeldOut);
     let (round, mut left_out) = without_few(whole, round)?;
     if round.fitted.found.is_empty() && !left_out.is_empty() {
         return of_declaration(whole, before, round, left_out);

@@ -11,7 +11,7 @@ use crate::search::fitted::Fitted;
 use crate::search::round::{Explains, Round};
 use crate::search::state::State;
 use crate::search::tail::Tails;
-use crate::search::{SearchError, SetColumns, SetId, Stage};
+use crate::search::{SearchError, SetColumns, SetId};
 use ::effects::candidate::EffectId;
 use ::effects::catalogue::Term;
 use fit::FitResult;
@@ -66,7 +66,6 @@ pub(super) fn judged<'a>(
         let tails = Tails::new([rank], state.df() + rank as f64);
         round.fitted.found[at].p_value = tails.ln_p(rank, gain, state.rss() + gain).exp();
     }
-    (whole.tell)(Stage::HeldOut);
     let held_out = round.held_out(whole);
     let Judgement { rms, left } = figures(whole, before, &round, &held_out)?;
     let model = model(whole, frozen, &round, &state)?;

@@ -1,12 +1,14 @@
 //! One round: the declaration with the effects accepted so far is fitted, and the search starts from there.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::SearchError;
 use super::apart::apart;
 use super::confounded::{SetColumns, SetId};
 use super::context::{Context, Found};
 use super::fitted::Fitted;
+use super::stage::Stage;
 use super::state::State;
 use crate::search::search_problem::SearchProblem;
 use crate::search::{Accepted, ConfoundedSet, HeldOut, Problem, Selection, confounded_sets, nested, select};
@@ -171,7 +173,13 @@ impl<'a> Round<'a> {
     /// What is found anew without each fold.
     pub fn held_out(&self, whole: &Context<'_>) -> HeldOut {
         let problem = &self.search.problem;
-        nested(problem, |fold| self.repeated(whole, problem, |other| other != fold))
+        let (done, of) = (AtomicUsize::new(0), problem.folds());
+        (whole.tell)(Stage::HeldOut { done: 0, of });
+        nested(problem, |fold| {
+            let found = self.repeated(whole, problem, |other| other != fold);
+            (whole.tell)(Stage::HeldOut { done: 1 + done.fetch_add(1, Ordering::Relaxed), of });
+            found
+        })
     }
 
     /// What is found in some folds of a problem, and the regression with it.

@@ -22,7 +22,12 @@ pub enum Stage {
     /// The contest of causes with what hangs together along the rows.
     Weigh,
     /// The search without each fold, and what it leaves there.
-    HeldOut,
+    HeldOut {
+        /// Folds that are done.
+        done: usize,
+        /// Folds there are.
+        of: usize,
+    },
     /// The look for structure that no effect explains.
     Remaining,
 }
@@ -36,7 +41,10 @@ impl fmt::Display for Stage {
             Self::Columns { rows, of } => write!(out, "what effects would do: row {rows} of {of}"),
             Self::Search => write!(out, "searching for what the declaration lacks"),
             Self::Weigh => write!(out, "weighing causes against what hangs together along the rows"),
-            Self::HeldOut => write!(out, "repeating the search without each fold"),
+            Self::HeldOut { done: 0, .. } => write!(out, "repeating the search without each fold"),
+            Self::HeldOut { done, of } => {
+                write!(out, "repeating the search without each fold: {done} of {of}")
+            }
             Self::Remaining => write!(out, "looking for structure that remains"),
         }
     }

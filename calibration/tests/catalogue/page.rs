@@ -141,7 +141,7 @@ fn page() -> String {
         names.retain(|name| !told_before.contains(name));
         told_before.extend(names.clone());
         if !names.is_empty() {
-            let _ = writeln!(page, "- **Names elsewhere.** {}.", by_field(names));
+            let _ = writeln!(page, "- **Names in other fields.** {}.", by_field(names));
         }
     }
     page

@@ -54,6 +54,11 @@ fn unbalanced_bracket() {
 }
 
 #[test]
+fn missing_comma() {
+    assert_snapshot!(changed("comma", "Rx(tilt_x), Ry", "Rx(tilt_x) Ry"));
+}
+
+#[test]
 fn empty_file() {
     assert_snapshot!(of_text("empty-chain", ""));
 }

@@ -2,7 +2,7 @@
 
 use insta::assert_snapshot;
 
-use crate::{mount, refused};
+use crate::{MOUNT, mount, refused};
 
 /// What `eval` says of an errors file.
 fn of_errors(name: &str, text: &str) -> String {
@@ -27,6 +27,31 @@ fn joint_instead_of_an_error() {
 #[test]
 fn pattern_without_a_match() {
     assert_snapshot!(of_errors("e-pattern", "\"da*\" = \"1 arcsec\"\n"));
+}
+
+/// What a pattern says of angles it cannot say of lengths.
+#[test]
+fn pattern_over_angles_and_lengths() {
+    let folder = mount("e-both");
+    folder.write("mount.chain", MOUNT.replace("Rx(index)", "Rx(index), Tx(slip)"));
+    folder.write("box.toml", "\"*\" = \"10 arcsec\"\n");
+    assert_snapshot!(refused(&folder.trueaxis(&["bound", "mount.chain", "--sizes", "box.toml"])));
+    // The line that it asks for is enough.
+    folder.write("box.toml", "\"*\" = \"10 arcsec\"\nslip = \"0.1 mm\"\n");
+    assert_eq!(folder.trueaxis(&["bound", "mount.chain", "--sizes", "box.toml"]).code, 0);
+}
+
+#[test]
+fn a_file_of_sizes_without_any() {
+    let folder = mount("e-none");
+    folder.write("box.toml", "# nothing yet\n");
+    let run = folder.trueaxis(&["bound", "mount.chain", "--sizes", "box.toml"]);
+    assert!(refused(&run).contains("`box.toml` has no size of an error: write lines such as"), "{run}");
+}
+
+#[test]
+fn errors_under_a_heading() {
+    assert_snapshot!(of_errors("e-heading", "[errors]\ntilt_x = \"10 arcsec\"\n"));
 }
 
 #[test]

@@ -150,6 +150,18 @@ fn empty_study() {
     assert_snapshot!(refused("empty-study", STUDY, ""));
 }
 
+/// A number out of its range, a text for a number, a key that is missing or stands twice: each with what to write.
+#[test]
+fn keys_that_cannot_be_read() {
+    let hold_out = |folds: &str| format!("[hold_out]\nfolds = {folds}\n\n[columns]");
+    assert_snapshot!(refused("one-fold", "[columns]", &hold_out("1")));
+    assert_snapshot!(refused("text-for-folds", "[columns]", &hold_out("\"ten\"")));
+    assert_snapshot!(refused("no-kind", "kind = \"direction\"\n", ""));
+    assert_snapshot!(refused("twice", "[columns]", "data = \"other.csv\"\n\n[columns]"));
+    assert_snapshot!(refused("no-quotes", "\"turntable.chain\"\nobs", "turntable.chain\nobs"));
+    assert_snapshot!(refused("far-shift", "unit = \"deg\"", "unit = \"deg\", shift = 3"));
+}
+
 #[test]
 fn one_sigma_for_angles_and_lengths() {
     let also = "z = \"z\"

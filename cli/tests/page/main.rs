@@ -3,10 +3,11 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use support::{Folder, trueaxis};
+use support::{Folder, root, trueaxis};
 
 /// Bytes that the page of a study of 400 rows may have: those of 1,000 rows are at most a megabyte.
 const MOST_BYTES: usize = 1_000_000;
@@ -71,6 +72,46 @@ fn rendered(browser: &Path, folder: &Folder, page: &str, width: u32) -> (String,
         .output()
         .expect("the browser runs");
     (String::from_utf8_lossy(&out.stdout).into_owned(), String::from_utf8_lossy(&out.stderr).into_owned())
+}
+
+/// Pictures of residuals that no fold hides, as a page opens.
+fn open_pictures(page: &str) -> usize {
+    let (_, behind) = page.split_once("<section id=\"residuals\"").expect("residuals");
+    let (pictures, _) = behind.split_once("<section id=\"values\"").expect("values");
+    let (mut folds, mut open) = (0, 0);
+    for tag in pictures.split('<') {
+        folds += usize::from(tag.starts_with("details"));
+        folds -= usize::from(tag.starts_with("/details"));
+        open += usize::from(folds == 0 && tag.starts_with("section class=\"card"));
+    }
+    open
+}
+
+#[test]
+fn long_reports_open_twelve_pictures_and_short_ones_none() {
+    let folder = Folder::new("open-pictures");
+    let out = folder.0.to_str().expect("UTF-8");
+    for study in ["examples/course/study.toml", "examples/encoder/encoder-b.toml"] {
+        if study.contains("encoder") && testkit::measured("encoder-b.csv").is_none() {
+            continue;
+        }
+        let run = trueaxis(&["calibrate", study, "--out", out]);
+        assert_eq!(run.code, 0, "{run}");
+        let page = folder.read("report.html");
+        assert!((3..=12).contains(&open_pictures(&page)), "{study}: {}", open_pictures(&page));
+        assert!(page.contains("How the residuals are distributed ("), "{study}");
+    }
+    // Two rows show nothing that their numbers do not.
+    folder.copy("examples/course/mount.chain").copy("examples/course/secret.csv");
+    let [study, rows] = ["examples/course/study.toml", "examples/course/secret.csv"]
+        .map(|file| fs::read_to_string(root().join(file)).expect("an example"));
+    folder.write("study.toml", study);
+    folder.write("secret.csv", rows.lines().take(3).map(|line| format!("{line}\n")).collect::<String>());
+    let run = folder.trueaxis(&["calibrate", "study.toml", "--out", "few"]);
+    assert_eq!(run.code, 1, "{run}");
+    let page = folder.read("few/report.html");
+    assert_eq!(open_pictures(&page), 0);
+    assert!(page.contains("2 rows are too few for pictures."), "one sentence");
 }
 
 #[test]

@@ -120,7 +120,8 @@ fn rows_outside_what_the_model_was_found_over_are_counted() {
         ("[found-over]\nazimut = [0, 1]\n", "did you mean `azimuth`?"),
         ("[found-over]\nazimuth = [1, 0]\n", "swap them"),
         ("[found-over]\nazimuth = [\"1 mm\", 2]\n", "`mm` measures a length"),
-        ("[found-over]\nazimuth = 3\n", "expected an array of length 2"),
+        ("[found-over]\nazimuth = 3\n", "`azimuth` has no two bounds"),
+        ("[found-over]\nazimuth = [\"1 dge\", 2]\n", "`dge` is no unit: did you mean `deg`?"),
         ("[tilt]\nazimuth = [0, 1]\n", "`tilt` is a table, and errors have values"),
     ] {
         folder.write("errors.toml", format!("{ERRORS}\n{table}"));

@@ -144,6 +144,45 @@ fn sizes_are_called_the_same_everywhere_and_go_by_their_former_name() {
     assert!(neither.code == 2 && neither.stderr.contains("--sizes BOX.toml"), "{neither}");
 }
 
+/// Letters of a line as a person sees them, without colours.
+fn seen(text: &str) -> String {
+    anstream::adapter::strip_str(text).to_string()
+}
+
+#[test]
+fn a_calibration_fits_its_width() {
+    for study in [COURSE, "examples/objects/wires.toml"] {
+        let text = seen(&with("COLUMNS", "60", &["calibrate", study]));
+        let (report, change) = text.split_once("The declaration, amended\n").unwrap_or((&text, ""));
+        // Commands are to be copied, and the declaration is quoted.
+        let last = change.split("\n\n").last().unwrap_or_default();
+        let lines =
+            report.lines().filter(|line| !line.trim_start().starts_with("trueaxis ")).chain(last.lines());
+        for line in lines {
+            assert!(line.chars().count() <= 60, "{study}: {line}");
+        }
+    }
+}
+
+/// Colours repeat what a word says: what is coloured is words, and the text is the same without.
+#[test]
+fn what_is_coloured_is_a_word() {
+    let claims = "examples/mobile-lidar/paper.toml";
+    for arguments in [&["calibrate", COURSE][..], &["derive", LIDAR], &["check", claims]] {
+        let [coloured, plain] = ["CLICOLOR_FORCE", "NO_COLOR"].map(|variable| with(variable, "1", arguments));
+        assert_eq!(seen(&coloured), plain, "{arguments:?}");
+        let mut runs = coloured.split('\u{1b}').skip(1).filter_map(|run| run.split_once('m'));
+        let words = runs.by_ref().filter(|(code, _)| *code != "[0").map(|(_, words)| words);
+        let words: Vec<&str> = words.filter(|words| !words.is_empty()).collect();
+        assert!(!words.is_empty(), "{arguments:?}");
+        for word in words {
+            // Carets mark a place by where they are.
+            let is_mark = word.chars().all(|letter| letter == '^');
+            assert!(is_mark || word.chars().any(char::is_alphabetic), "{arguments:?}: {word:?}");
+        }
+    }
+}
+
 #[test]
 fn tables_fit_their_width() {
     for arguments in [

@@ -1,7 +1,7 @@
 //! The first screens of a dozen studies, read as a person reads them: grade, length of sentences.
 
 use super::grade::grade;
-use super::support::trueaxis;
+use super::{seen, with};
 
 /// Studies of every kind of observation, with effects and without.
 const STUDIES: &[&str] = &[
@@ -31,14 +31,25 @@ fn first_screens_are_read_by_a_pupil_of_fifteen() {
     assert!((below + above) / 2.0 <= GRADE, "{grades:?}");
 }
 
+/// Lines that a terminal shows.
+const LINES: usize = 24;
+
 /// The sentences of a study's first screen as lists of words, without names, code and numbers.
 fn sentences(study: &str) -> Vec<Vec<String>> {
-    let run = trueaxis(&["calibrate", &format!("examples/{study}.toml")]);
-    assert!(run.code < 2, "{run}");
-    let (screen, _) = run.stdout.split_once("\nResidual ").expect("figures follow the first screen");
+    let text = seen(&with("COLUMNS", "80", &["calibrate", &format!("examples/{study}.toml")]));
+    let (screen, _) = text.split_once("\nResidual ").expect("figures follow the first screen");
+    // The answer ends at the first blank line.
+    let (answer, _) = screen.split_once("\n\n").unwrap_or((screen, ""));
+    let of_cautions = answer
+        .lines()
+        .skip_while(|line| !line.starts_with("Caution"))
+        .take_while(|line| !["What it is", "How much better"].contains(line));
+    assert!(answer.contains("What to do next"), "{answer}");
+    let lines = answer.lines().count() - of_cautions.count();
+    assert!(lines <= LINES, "{study}: {lines} lines\n{answer}");
     let mut found = vec![Vec::new()];
     let mut is_code = false;
-    for line in screen.lines().filter(|line| !line.starts_with("       trueaxis")) {
+    for line in screen.lines().filter(|line| !line.starts_with("     trueaxis")) {
         // Headings, items of lists and steps begin with a sign or a capital at the margin.
         let begins =
             line.trim_start().starts_with(['-', '1', '2', '3', '4', '5', '6']) || !line.starts_with(' ');

@@ -8,7 +8,7 @@ use crate::candidate::{Effect, Family, Function, JointAxis, Setting, seen};
 pub(super) const FAMILY: Family = Family {
     name: "compliance",
     what: "A joint winds up in proportion to the torque that the weight of one body behind it exerts about its axis. The lever \
-           follows from the chain: where the body stands, seen from the joint, across the plumb line. A second arm that the joint \
+           follows from the chain: how far the body is from the joint, at right angles to the plumb line. A second arm that the joint \
            carries counts too, where the study reads its joints.",
     causes: "Gears, belts, shafts and torque sensors of an arm are elastic: what the motor's encoder reads is not where the \
              link is.",

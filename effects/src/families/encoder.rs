@@ -6,7 +6,7 @@ use crate::candidate::{Dependence, Effect, Family, Function, JointAxis, Setting,
 
 pub(crate) const FAMILY: Family = Family {
     name: "encoder",
-    what: "The joint is not quite where its encoder says, by a function of the reading.",
+    what: "The joint differs from its encoder's reading, by a function of that reading.",
     causes: "The graduated disc sits off centre (once per turn), or is oval or tilted (twice). Four readout cells differ (four times). \
              Teeth of a gear or poles of a motor (many times). A wrong number of counts per turn (scale).",
     looks: "A sine of the reading, once or several times per turn, or a straight line (scale). Only about the joint's own axis, and \

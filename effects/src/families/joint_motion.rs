@@ -19,9 +19,9 @@ pub(crate) const FAMILY: Family = Family {
            forward with the turn or backward against it (a whirl); two circles of one order make an ellipse or a line.",
     causes: "Bearing races and balls that are not round, a track that is not flat, a shaft bent or clamped \
              askew.",
-    looks: "Harmonics of the joint in a direction across its own axis (tilt, radial) or along it (axial). Seen from the \
-            ground a forward whirl of order n in the turning frame has order n + 1, a backward one n − 1; the backward one \
-            of order 1 stands still: it is perpendicularity.",
+    looks: "Harmonics of the joint at right angles to its own axis (tilt, radial) or along it (axial). Seen from the \
+            ground a forward whirl of order n in the turning frame has order n + 1, a backward one n − 1. The backward one \
+            of order 1 is fixed, and is perpendicularity.",
     check: "Watch an inclinometer on the turning frame, or a sphere and dial gauges on the axis, through one turn (the \
             tilt, radial and axial error motion of ISO 230-7).",
     effects,

@@ -5,7 +5,7 @@ use crate::candidate::{Effect, Family, Setting};
 
 pub(crate) const FAMILY: Family = Family {
     name: "linear scale",
-    what: "A joint that shifts goes further, or less far, than its scale says, in proportion to the way.",
+    what: "A joint that shifts goes further, or less far, than its scale shows, in proportion to the way.",
     causes: "The scale is warmer or colder than where it was divided, or expands unlike what it measures; the lead of the screw, the \
              length of a division or the wavelength in air is not what the counter takes it for; a cosine, where the scale does not lie \
              along the way.",

@@ -11,7 +11,7 @@ pub(super) const FAMILY: Family = Family {
            aside; beam and axis are not quite parallel.",
     causes: "The source, the camera or the tube is not on the axis of the mirror: a scanner, a siderostat, a telescope \
              with its instrument at a Nasmyth or coudé focus.",
-    looks: "A sine of the joint about its own axis, and its cosine across it, of the same size: the mirror turns the \
+    looks: "A sine of the joint about its own axis, and its cosine at right angles to the axis, of the same size: the mirror turns the \
             beam's tilt into the two in quadrature.",
     check: "Put a target on the axis and turn the mirror out of the way: the beam should meet it.",
     effects,

@@ -12,7 +12,7 @@ pub(super) const FAMILY: Family = Family {
     name: "own",
     what: "An effect that the study brings with it, for what only this instrument has.",
     causes: "What its maker knows.",
-    looks: "What its functions say.",
+    looks: "The pattern of its functions.",
     check: "What its maker suggests.",
     effects,
 };

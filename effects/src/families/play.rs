@@ -7,10 +7,10 @@ use crate::candidate::{Effect, Family, Freedom, Function, Setting};
 
 pub(super) const FAMILY: Family = Family {
     name: "play",
-    what: "What a joint carries tilts or shifts across the joint's axis by a fixed amount that changes sign with the \
+    what: "What a joint carries tilts or shifts at right angles to the joint's axis by a fixed amount that changes sign with the \
            direction of motion.",
     causes: "Clearance of a bearing or of a slide: the drive pushes what it moves against one flank, then the other.",
-    looks: "Two branches, one for each direction of motion, in a direction across the joint's own.",
+    looks: "Two branches, one for each direction of motion, at right angles to the joint's own.",
     check: "Approach one pose from both sides and push by hand: a preload takes it away.",
     effects,
 };

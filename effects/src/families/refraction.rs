@@ -12,7 +12,7 @@ pub(super) const FAMILY: Family = Family {
            distance. Near the horizon its cube is added. For a joint that counts from the horizon it is the cotangent of the joint. \
            Other mounts need `gravity` in the declaration, so that up is known.",
     causes: "Refraction left over after a model of the air: wrong pressure, temperature or wavelength.",
-    looks: "A shift along the vertical, whichever way the mount stands, that grows without bound towards the horizon.",
+    looks: "A shift along the vertical, at every azimuth, that grows without bound towards the horizon.",
     check: "Compare pressure and temperature given to the refraction model. Measure on a day with other weather.",
     effects,
 };

@@ -8,7 +8,7 @@ pub(super) const FAMILY: Family = Family {
     what: "A joint winds up in proportion to the torque of gravity about its axis, behind the encoder's back.",
     causes: "What the joint carries is out of balance; shaft, coupling, gear or brake between encoder and load twist.",
     looks: "One period a turn about the joint's own axis, fixed in phase to the plumb line, zero where the centre of mass \
-            stands above or below the axis.",
+            is above or below the axis.",
     check: "Balance the joint, or attach a known mass to a known arm. Wind-up follows the torque, the eccentricity of an encoder does not.",
     effects,
 };

@@ -5,11 +5,14 @@
 
 mod amount;
 pub mod declaration;
+mod documentation;
+mod factors;
 mod image;
 mod number;
 mod print;
 mod statements;
 mod tokens;
+mod unreadable;
 
 use std::ops::Range;
 
@@ -53,7 +56,11 @@ pub fn parse_amount(text: &str) -> Result<Expr<Range<usize>>, Mistakes> {
 }
 
 /// The tokens of a text.
-pub(crate) fn tokens_of(text: &str) -> Result<TokenStream, Mistake<Span>> {
+///
+/// # Errors
+///
+/// A sign that is none of the language, or that has no other one.
+pub(crate) fn tokens_of(text: &str) -> Result<TokenStream, Mistakes> {
     tokens::tokenize(text)
 }
 
@@ -71,14 +78,10 @@ pub(crate) fn located(text: &str, mistakes: Vec<Mistake<Span>>) -> Mistakes {
 
 fn read_text<T>(text: &str, read: impl FnOnce(&mut Reader<'_, '_>) -> Option<T>) -> Result<T, Mistakes> {
     let mut mistakes = Vec::new();
-    match tokens_of(text) {
-        Err(mistake) => mistakes.push(mistake),
-        Ok(tokens) => match read_with(tokens, &mut mistakes, read) {
-            Some(result) if mistakes.is_empty() => return Ok(result),
-            _ => {}
-        },
+    match read_with(tokens_of(text)?, &mut mistakes, read) {
+        Some(result) if mistakes.is_empty() => Ok(result),
+        _ => Err(located(text, mistakes)),
     }
-    Err(located(text, mistakes))
 }
 
 fn read_with<T>(

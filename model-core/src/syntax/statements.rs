@@ -2,13 +2,14 @@
 //! are read all the same.
 
 use proc_macro2::{Delimiter, Ident, Span, TokenTree};
-use syn::buffer::Cursor;
 
 use super::amount;
 use super::declaration::{
-    AxisTerm, BentTerm, BetweenTerm, BodyStatement, ConstantStatement, Declaration, FactorGroup, FactorTerm,
-    GravityStatement, InputStatement, ObserveStatement, ReadingTerm, Statement, SymbolStatement,
+    AxisTerm, BentTerm, BetweenTerm, BodyStatement, ConstantStatement, Declaration, GravityStatement,
+    InputStatement, ObserveStatement, ReadingTerm, Statement, SymbolStatement,
 };
+use super::documentation::{documentation, string_value};
+use super::factors::factor_group;
 use super::image::{IMAGE, image};
 use super::tokens::Reader;
 use crate::algebra::Rational;
@@ -37,8 +38,6 @@ const AXES_HELP: &str = "write axes, as `azimuth(x, -y)` or `elevation(z)`";
 const FRAME_HELP: &str =
     "write `in body`, or leave it out: what is observed is then seen in the ground frame";
 const GRAVITY_HELP: &str = "write `gravity: (0, 0, -1);`";
-const FACTORS_HELP: &str = "write `motion: Rz(alpha);`, and so on";
-const FACTOR_HELP: &str = "write a factor as `Rx(amount)`, with Rx, Ry, Rz, Tx, Ty or Tz";
 
 type Read<T> = Result<T, Mistake<Span>>;
 
@@ -103,46 +102,6 @@ fn statement(reader: &mut Reader<'_, '_>) -> Read<Statement> {
     }
 }
 
-/// The `///` lines here, which the lexer has turned into `#[doc = "…"]`.
-fn documentation(reader: &mut Reader<'_, '_>) -> Read<String> {
-    let mut lines = Vec::new();
-    let mut last = None;
-    while let Some(hash) = reader.mark('#') {
-        last = Some(hash);
-        reader.mark('!');
-        let line = reader.group(Delimiter::Bracket).and_then(|(inside, _)| documentation_line(inside));
-        match line {
-            Some(line) => lines.push(line),
-            None => reader.mistakes.push(
-                Mistake::new(hash, "an attribute cannot stand here")
-                    .with_help("write documentation as `/// …`, and comments as `// …`"),
-            ),
-        }
-    }
-    match last {
-        Some(last) if reader.is_at_end() => Err(Mistake::new(last, "nothing follows this documentation")
-            .with_help("write `/// …` above what it documents, and any other remark as `// …`")),
-        _ => Ok(lines.join("\n")),
-    }
-}
-
-/// The text in `doc = "…"`, without the blank that follows `///`.
-fn documentation_line(inside: Cursor<'_>) -> Option<String> {
-    let (word, rest) = inside.ident()?;
-    let (equals, rest) = rest.punct()?;
-    let (literal, rest) = rest.literal()?;
-    if word != "doc" || equals.as_char() != '=' || !rest.eof() {
-        return None;
-    }
-    let line = string_value(&TokenTree::Literal(literal))?;
-    Some(line.strip_prefix(' ').unwrap_or(&line).trim_end().to_owned())
-}
-
-/// The text that a string literal stands for.
-fn string_value(literal: &TokenTree) -> Option<String> {
-    syn::parse2::<syn::LitStr>(literal.clone().into()).ok().map(|string| string.value())
-}
-
 fn body(reader: &mut Reader<'_, '_>, documentation: String) -> Read<BodyStatement> {
     reader.keyword("body", BODY_HELP)?;
     let name = reader.name("the name of the body").map_err(|m| m.with_help(BODY_HELP))?;
@@ -167,28 +126,6 @@ fn body(reader: &mut Reader<'_, '_>, documentation: String) -> Read<BodyStatemen
         groups
     });
     Ok(BodyStatement { documentation, name, lower, groups, braces })
-}
-
-fn factor_group(reader: &mut Reader<'_, '_>) -> Read<FactorGroup> {
-    let documentation = documentation(reader)?;
-    let role = reader.name("a list of factors").map_err(|m| m.with_help(FACTORS_HELP))?;
-    reader.expect_mark(':', FACTORS_HELP)?;
-    let mut factors = vec![factor(reader)?];
-    while reader.mark(',').is_some() && !reader.is_mark(';') {
-        factors.push(factor(reader)?);
-    }
-    let semicolon = reader.end_of_statement()?;
-    Ok(FactorGroup { documentation, role, factors, semicolon })
-}
-
-fn factor(reader: &mut Reader<'_, '_>) -> Read<FactorTerm> {
-    let documentation = documentation(reader)?;
-    let axis = reader.name("a factor").map_err(|m| m.with_help(FACTOR_HELP))?;
-    let Some((inside, parentheses)) = reader.group(Delimiter::Parenthesis) else {
-        return Err(reader.expected("`(`").with_help(FACTOR_HELP));
-    };
-    let amount = reader.inside(inside, parentheses.close, amount::whole);
-    Ok(FactorTerm { documentation, axis, amount, close: parentheses.close })
 }
 
 fn constant(reader: &mut Reader<'_, '_>, documentation: String) -> Read<ConstantStatement> {

@@ -9,23 +9,21 @@ use proc_macro2::{Delimiter, Ident, Literal, Span, TokenStream, TokenTree};
 use syn::buffer::Cursor;
 
 use super::declaration::Braces;
-use crate::mistake::Mistake;
+use super::unreadable;
+use crate::mistake::{Mistake, Mistakes};
 
 /// Parentheses and braces deeper than this are refused, so that no text can exhaust the stack.
 pub const MAX_NESTING: usize = 32;
 
 /// The tokens of a text; byte ranges of their spans are those of the text.
-pub fn tokenize(text: &str) -> Result<TokenStream, Mistake<Span>> {
+pub fn tokenize(text: &str) -> Result<TokenStream, Mistakes> {
     // The lexer would drop a byte order mark and count from behind it.
-    let text = match text.strip_prefix('\u{feff}') {
+    let counted = match text.strip_prefix('\u{feff}') {
         Some(rest) => Cow::Owned(format!("   {rest}")),
         None => Cow::Borrowed(text),
     };
-    TokenStream::from_str(&text).map_err(|error| {
-        Mistake::new(error.span(), "this cannot be read").with_help(
-            "write names, numbers, `//` comments and matching pairs of parentheses, braces and quotes",
-        )
-    })
+    TokenStream::from_str(&counted)
+        .map_err(|error| Mistakes::locate(text, [unreadable::why(&counted, error.span().byte_range())]))
 }
 
 /// Refuses groups nested deeper than [`MAX_NESTING`]; works without recursion.

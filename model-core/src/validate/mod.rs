@@ -58,11 +58,7 @@ impl Chain {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn from_text(text: &str) -> Result<Self, Mistakes> {
-        let tokens = match syntax::tokens_of(text) {
-            Ok(tokens) => tokens,
-            Err(mistake) => return Err(syntax::located(text, vec![mistake])),
-        };
-        match read(tokens) {
+        match read(syntax::tokens_of(text)?) {
             Ok((_, chain)) => Ok(chain),
             Err(mistakes) => Err(syntax::located(text, mistakes)),
         }
@@ -86,8 +82,7 @@ impl Chain {
 ///
 /// Every mistake in it, sorted by place.
 pub fn read_symbolic_text(text: &str) -> Result<(Declaration, Chain), Mistakes> {
-    let tokens = syntax::tokens_of(text).map_err(|mistake| syntax::located(text, vec![mistake]))?;
-    read_symbolic(tokens).map_err(|mistakes| syntax::located(text, mistakes))
+    read_symbolic(syntax::tokens_of(text)?).map_err(|mistakes| syntax::located(text, mistakes))
 }
 
 /// Reads and checks a declaration: all mistakes of form and of meaning, sorted by place.

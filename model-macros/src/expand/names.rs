@@ -37,7 +37,12 @@ impl Names {
             }
         }
         let groups = declaration.bodies().flat_map(|body| &body.groups);
-        for amount in groups.flat_map(|group| &group.factors).filter_map(|factor| factor.amount.as_ref()) {
+        let factors = groups.flat_map(|group| &group.factors).filter_map(|factor| factor.amount.as_ref());
+        let bent = declaration.statements.iter().filter_map(|statement| match statement {
+            Statement::Observe(observe) => observe.bent.as_ref()?.amount.as_ref(),
+            _ => None,
+        });
+        for amount in factors.chain(bent) {
             for (name, span) in amount.names() {
                 symbols.entry(name.to_owned()).or_insert(span);
             }
@@ -51,9 +56,8 @@ impl Names {
     }
 
     /// Where a name was declared: a symbol, or an observable.
-    pub fn place(&self, name: &Ident) -> Option<Span> {
-        let name = name.to_string();
-        self.symbols.get(&name).or_else(|| self.observables.get(&name)).copied()
+    pub fn place(&self, name: &str) -> Option<Span> {
+        self.symbols.get(name).or_else(|| self.observables.get(name)).copied()
     }
 
     /// Where an observable is declared.

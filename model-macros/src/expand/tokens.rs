@@ -22,7 +22,7 @@ fn placed(tokens: TokenStream, names: &Names) -> TokenStream {
                 TokenTree::Group(inner)
             }
             TokenTree::Ident(mut ident) => {
-                if let Some(place) = names.place(&ident) {
+                if let Some(place) = names.place(&ident.to_string()) {
                     ident.set_span(place);
                 }
                 TokenTree::Ident(ident)
@@ -35,7 +35,7 @@ fn placed(tokens: TokenStream, names: &Names) -> TokenStream {
 /// An identifier that may be a name of the declaration.
 pub fn ident(name: &str, names: &Names) -> Ident {
     let mut ident = Ident::new(name, proc_macro2::Span::call_site());
-    if let Some(place) = names.place(&ident) {
+    if let Some(place) = names.place(&ident.to_string()) {
         ident.set_span(place);
     }
     ident

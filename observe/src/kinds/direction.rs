@@ -42,7 +42,9 @@ const DIRECTION: Written = Written {
         let vector = Vector3::new(cells.at(0), cells.at(1), cells.at(2));
         let length = vector.norm();
         if (length - 1.0).abs() > UNIT_TOLERANCE {
-            return Err(format!("x, y, z is no unit vector: its length is {length:.6}"));
+            return Err(format!(
+                "x, y, z is no unit vector: divide its components by their length, {length:.6}"
+            ));
         }
         Ok(Measured::Direction(vector / length))
     },

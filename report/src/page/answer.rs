@@ -192,7 +192,7 @@ fn models(ladder: &Ladder) -> Markup {
                     }
                 }
             }
-            p.quiet { "✓ marks the simplest model that no other beats by more than the standard error of the difference." }
+            p.quiet { (words::SIMPLEST) }
             @if let Some(missing) = words::missing_models(ladder) { p.quiet { (missing) } }
         }
     }

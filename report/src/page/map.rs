@@ -20,13 +20,13 @@ const LONG: f64 = 26.0;
 /// A place and the residual there, across and along.
 type Arrow = ((f64, f64), (f64, f64));
 
-/// A map of what was before, and one of what is left; one where nothing was added.
-pub fn maps(reported: &Reported<'_>, rows: &Rows) -> Markup {
+/// A map of what was before, and one of what is left; one where nothing was added, none where no map can show it.
+pub fn maps(reported: &Reported<'_>, rows: &Rows) -> Vec<Markup> {
     let observations = reported.observations;
-    let [first, second, ..] = rows.components.as_slice() else { return html! {} };
-    let Some(series) = observations.poses.series.first() else { return html! {} };
+    let [first, second, ..] = rows.components.as_slice() else { return Vec::new() };
+    let Some(series) = observations.poses.series.first() else { return Vec::new() };
     // Nobody knows where the rows of others pointed to, or it takes more than a map to say.
-    let Some(Map { title, labels, place }) = series.measure.kind().map else { return html! {} };
+    let Some(Map { title, labels, place }) = series.measure.kind().map else { return Vec::new() };
     let arrows = |after: bool| -> Vec<Arrow> {
         let part = |component: &super::rows::Component, row: usize| {
             let every = &component.every;
@@ -67,9 +67,9 @@ pub fn maps(reported: &Reported<'_>, rows: &Rows) -> Markup {
             section.card { h3 { (title) } p.quiet { (note) } (PreEscaped(picture.finish(&format!("{title}. {note}")))) }
         }
     };
-    html! {
-        @if rows.changed { (picture(before, "before", "was")) (picture(arrows(true), "after", "is")) }
-        @else { (picture(before, "", "is")) }
+    match rows.changed {
+        true => vec![picture(before, "before", "was"), picture(arrows(true), "after", "is")],
+        false => vec![picture(before, "", "is")],
     }
 }
 

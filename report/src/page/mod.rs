@@ -9,6 +9,7 @@ mod contest;
 mod distribution;
 mod frozen;
 mod map;
+mod panels;
 mod pictures;
 mod rows;
 pub mod svg;

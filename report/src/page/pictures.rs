@@ -6,6 +6,7 @@ use maud::{Markup, PreEscaped, html};
 use rayon::prelude::*;
 
 use super::card::{CARD, card};
+use super::panels::{FEWEST_ROWS, HARMONICS, OPEN, Panel, fold, parted};
 use super::rows::{Column, Component, Rows, axis_size, trace_reading};
 use super::svg::{Axis, Mark, Picture};
 use super::{distribution, map};
@@ -18,11 +19,19 @@ const BROAD: (f64, f64) = (1140.0, 250.0);
 const BINS: usize = 12;
 
 /// Effects whose pictures are not folded away.
-const OPEN: usize = 3;
+const EFFECTS: usize = 3;
 
 /// The section of residuals.
 pub fn residuals(reported: &Reported<'_>, rows: &Rows) -> Markup {
     let drawn = rows.numbers.len();
+    if rows.of < FEWEST_ROWS {
+        return html! {
+            section id="residuals" {
+                h2 { "Residuals" }
+                p { (rows.of) @if rows.of == 1 { " row is" } @else { " rows are" } " too few for pictures. The residuals are in " code { "residuals.csv" } "." }
+            }
+        };
+    }
     let found = &reported.calibration.diagnosis.effects;
     let mut effects: Vec<usize> = (0..reported.calibration.traces.len()).collect();
     effects.sort_by(|&a, &b| found[b].standing.total_cmp(&found[a].standing));
@@ -35,6 +44,21 @@ pub fn residuals(reported: &Reported<'_>, rows: &Rows) -> Markup {
                 .collect::<Vec<_>>()
         },
     );
+    let against = match rows.components.as_slice() {
+        [across, along, ..] => Some(against(rows, across, along)),
+        _ => None,
+    };
+    let effects: Vec<Markup> = effects.into_iter().filter_map(|at| effect(reported, rows, at)).collect();
+    let (first, others) = effects.split_at(effects.len().min(EFFECTS));
+    let stand_open = first.len() + maps.len() + usize::from(against.is_some());
+    let mut panels = Vec::new();
+    let mut distributions = Vec::new();
+    for own in of_components {
+        panels.extend(own.over);
+        panels.push(own.order);
+        distributions.extend(own.distribution);
+    }
+    let [open, folded] = parted(panels, OPEN.saturating_sub(stand_open));
     html! {
         section id="residuals" {
             h2 { "Residuals" }
@@ -60,42 +84,40 @@ pub fn residuals(reported: &Reported<'_>, rows: &Rows) -> Markup {
                 button id="clear" type="button" hidden { "Clear" }
             }
             div.grid {
-                @for &at in effects.iter().take(OPEN) { (effect(reported, rows, at)) }
-                (maps)
-                @if let [across, along, ..] = rows.components.as_slice() { (against(rows, across, along)) }
-                @for own in &of_components { (own.histogram) (own.quantiles) }
-                @for own in &of_components { (own.order) }
+                @for effect in first { (effect) }
+                @for map in maps { (map) }
+                @if let Some(against) = against { (against) }
+                @for panel in open { (panel.picture) }
             }
-            @if effects.len() > OPEN {
+            @if !others.is_empty() {
                 details {
-                    summary { "The other " (effects.len() - OPEN) " effects" }
-                    div.grid { @for &at in &effects[OPEN..] { (effect(reported, rows, at)) } }
+                    summary { "The other " (others.len()) @if others.len() == 1 { " effect" } @else { " effects" } }
+                    div.grid { @for effect in others { (effect) } }
                 }
             }
-            details open[rows.readings.len() * rows.components.len() <= 6] {
-                summary { "Every residual against every reading (" (rows.readings.len() * rows.components.len()) " pictures)" }
-                div.grid {
-                    @for over in of_components.iter().flat_map(|own| &own.over) { (over) }
-                }
-            }
+            (fold("The residual against other readings and in file order, most structure first", &folded))
+            (fold("How the residuals are distributed", &distributions))
         }
     }
 }
 
 /// The pictures of one residual component.
 struct OfComponent {
-    histogram: Markup,
-    quantiles: Markup,
-    order: Markup,
+    /// Histogram and quantiles.
+    distribution: [Panel; 2],
+    order: Panel,
     /// Over each reading.
-    over: Vec<Markup>,
+    over: Vec<Panel>,
 }
 
 impl OfComponent {
     fn of(reported: &Reported<'_>, rows: &Rows, component: &Component) -> Self {
+        let distribution = [
+            distribution::histogram(component, rows.changed),
+            distribution::quantiles(component, rows.changed),
+        ];
         Self {
-            histogram: distribution::histogram(component, rows.changed),
-            quantiles: distribution::quantiles(component, rows.changed),
+            distribution: distribution.map(|picture| Panel { left: 0.0, is_wide: false, picture }),
             order: order(reported, rows, component),
             over: rows.readings.par_iter().map(|reading| over(reported, rows, reading, component)).collect(),
         }
@@ -140,19 +162,16 @@ fn residual_axis(label: &str, rows: &Rows, columns: [&[Option<f64>]; 2]) -> Axis
     Axis::around(label, kept, true)
 }
 
-/// One effect against what drives it, with the fitted function drawn through.
-fn effect(reported: &Reported<'_>, rows: &Rows, at: usize) -> Markup {
+/// One effect against what drives it, with the fitted function drawn through; none where no one reading drives it.
+fn effect(reported: &Reported<'_>, rows: &Rows, at: usize) -> Option<Markup> {
     let trace = &reported.calibration.traces[at];
     let told = &reported.calibration.diagnosis.effects[at];
     let [without, left] = &rows.effects[at];
     let readings = &reported.calibration.diagnosis.instrument.readings;
     let chain = &reported.calibration.chain;
     let driver = trace.driver.map(|id| chain.symbol(id).name.clone());
-    let Some((number, shown)) =
-        readings.iter().enumerate().find(|(_, shown)| Some(&shown.name) == driver.as_ref())
-    else {
-        return html! {};
-    };
+    let (number, shown) =
+        readings.iter().enumerate().find(|(_, shown)| Some(&shown.name) == driver.as_ref())?;
     let reading = &rows.readings[number];
     let (drawn, in_si) =
         (trace_reading(trace), numbers::reading(shown.unit, axis_size(shown.unit, &shown.range)).in_si);
@@ -187,7 +206,7 @@ fn effect(reported: &Reported<'_>, rows: &Rows, at: usize) -> Markup {
         told.body
     );
     let name = format!("{} against {}: {}", label, shown.name, words::headline(told));
-    card(&words::sentence_case(&told.names[0]), &note, &picture.finish(&name))
+    Some(card(&words::sentence_case(&told.names[0]), &note, &picture.finish(&name)))
 }
 
 /// One component against another.
@@ -209,7 +228,7 @@ fn against(rows: &Rows, x: &Component, y: &Component) -> Markup {
 }
 
 /// A component against a reading, with means of what is left.
-fn over(reported: &Reported<'_>, rows: &Rows, reading: &Column, component: &Component) -> Markup {
+fn over(reported: &Reported<'_>, rows: &Rows, reading: &Column, component: &Component) -> Panel {
     let (before, after) = (&component.before, &component.after);
     let number = rows.readings.iter().position(|one| one.key == reading.key);
     let every = number.map(|number| reported.observations.poses.columns[number].1.as_slice());
@@ -221,16 +240,16 @@ fn over(reported: &Reported<'_>, rows: &Rows, reading: &Column, component: &Comp
     let y = residual_axis(&component.label, rows, [&before.values, &after.values]);
     let mut picture = Picture::new(CARD.0, CARD.1, x, y).of_rows(&reading.key, &before.key, &after.key);
     marks(&mut picture, rows, &reading.values, &before.values, &after.values);
-    if let Some(every) = every {
-        means(&mut picture, low, high, rows.kept(|row| every[row] / reading.in_si, component));
-    }
+    let left = every.map_or(0.0, |every| {
+        means(&mut picture, low, high, rows.kept(|row| every[row] / reading.in_si, component))
+    });
     let title = format!("{} over {}", words::sentence_case(&component_in_words(component.name)), reading.key);
     let svg = picture.finish(&format!("{title}, before and after, with means after"));
-    card(&title, "", &svg)
+    Panel { left, is_wide: false, picture: card(&title, "", &svg) }
 }
 
-/// Means of what is left in bins, each with two standard errors.
-fn means(picture: &mut Picture, low: f64, high: f64, points: impl Iterator<Item = (f64, f64)>) {
+/// Means of what is left in bins, each with two standard errors; returns how many of these the mean lies off zero that lies off most.
+fn means(picture: &mut Picture, low: f64, high: f64, points: impl Iterator<Item = (f64, f64)>) -> f64 {
     let mut sums = [[0.0; 4]; BINS];
     for (x, y) in points {
         let share = (x - low) / (high - low) * BINS as f64;
@@ -240,27 +259,33 @@ fn means(picture: &mut Picture, low: f64, high: f64, points: impl Iterator<Item 
         let [count, sum_x, sum, square] = &mut sums[bin];
         (*count, *sum_x, *sum, *square) = (*count + 1.0, *sum_x + x, *sum + y, *square + y * y);
     }
-    let mut marks = Vec::new();
+    let (mut marks, mut most) = (Vec::new(), 0.0_f64);
     for [count, sum_x, sum, square] in sums.into_iter().filter(|sums| sums[0] >= 4.0) {
         let (x, mean) = (sum_x / count, sum / count);
         let error = 2.0 * ((square / count - mean * mean).max(0.0) / (count - 1.0)).sqrt();
         picture.line("normal", [(x, mean - error), (x, mean + error)].into_iter());
         marks.push((x, mean));
+        if error > 0.0 {
+            most = most.max(mean.abs() / error);
+        }
     }
     picture.marks("after", Mark::Diamond, marks.into_iter());
+    most
 }
 
 /// A component of the residual row by row, in two drawings: one for a broad window, one for a narrow one.
-fn order(reported: &Reported<'_>, rows: &Rows, component: &Component) -> Markup {
+fn order(reported: &Reported<'_>, rows: &Rows, component: &Component) -> Panel {
     let numbers: Vec<Option<f64>> = rows.numbers.iter().map(|&number| Some(number as f64)).collect();
-    html! {
+    let [(left, broad), (_, narrow)] =
+        [BROAD, CARD].map(|size| in_order(reported, rows, component, &numbers, size));
+    let picture = html! {
         section.card.wide {
             h3 { "In file order, " (component_in_words(component.name)) }
-            @for (class, size) in [("broad", BROAD), ("narrow", CARD)] {
-                div class=(class) { (PreEscaped(in_order(reported, rows, component, &numbers, size))) }
-            }
+            div.broad { (PreEscaped(broad)) }
+            div.narrow { (PreEscaped(narrow)) }
         }
-    }
+    };
+    Panel { left, is_wide: true, picture }
 }
 
 fn in_order(
@@ -269,7 +294,7 @@ fn in_order(
     component: &Component,
     numbers: &[Option<f64>],
     (width, height): (f64, f64),
-) -> String {
+) -> (f64, String) {
     let (before, after) = (&component.before, &component.after);
     let x = Axis::around("row", numbers.iter().flatten().copied(), false);
     let (low, high) = (x.low, x.high);
@@ -277,14 +302,15 @@ fn in_order(
     let mut picture = Picture::new(width, height, x, y).of_rows("order", &before.key, &after.key);
     marks(&mut picture, rows, numbers, &before.values, &after.values);
     let number = |row: usize| reported.observations.row_number(row) as f64;
-    means(&mut picture, low, high, rows.kept(number, component));
-    picture.finish(&format!("{} row by row, before and after", component_in_words(component.name)))
+    let left = means(&mut picture, low, high, rows.kept(number, component));
+    (left, picture.finish(&format!("{} row by row, before and after", component_in_words(component.name))))
 }
 
 /// What remains after the effects: in words, the statistics behind them, and the harmonics of each joint.
 pub fn left(reported: &Reported<'_>) -> Markup {
     let diagnosis = &reported.calibration.diagnosis;
-    let joints: Vec<&Harmonics> = diagnosis.harmonics.iter().collect();
+    let harmonics = diagnosis.harmonics.iter().map(|own| harmonic(own, reported)).collect();
+    let [open, folded] = parted(harmonics, HARMONICS);
     html! {
         section id="left" {
             h2 { "What remains" }
@@ -294,12 +320,11 @@ pub fn left(reported: &Reported<'_>) -> Markup {
                 p { "To add this error to the model, write these lines into the study and calibrate again:" }
                 pre.copy tabindex="0" { (offer) }
             }
-            @if !joints.is_empty() {
-                details open {
-                    summary { "Harmonics of each joint" }
-                    p.quiet { "Amplitude of each order in the residual. Noise alone exceeds the dotted line once in twenty times." }
-                    div.grid { @for harmonics in joints { (harmonic(harmonics, reported)) } }
-                }
+            @if !open.is_empty() {
+                h3 { "Harmonics of each joint" }
+                p.quiet { "Amplitude of each order in the residual. Noise alone exceeds the dotted line once in twenty times." }
+                div.grid { @for panel in open { (panel.picture) } }
+                (fold("Other harmonics", &folded))
             }
             @if let Some(left) = &diagnosis.remaining {
                 details {
@@ -316,7 +341,7 @@ pub fn left(reported: &Reported<'_>) -> Markup {
     }
 }
 
-fn harmonic(harmonics: &Harmonics, reported: &Reported<'_>) -> Markup {
+fn harmonic(harmonics: &Harmonics, reported: &Reported<'_>) -> Panel {
     let all = harmonics.before.iter().chain(&harmonics.after).chain(&harmonics.limit);
     let largest = all.copied().fold(0.0, f64::max);
     let reading = numbers::reading(reported.calibration.diagnosis.unit, largest);
@@ -345,5 +370,7 @@ fn harmonic(harmonics: &Harmonics, reported: &Reported<'_>) -> Markup {
         words::sentence_case(&component_in_words(harmonics.component)),
         harmonics.joint
     );
-    card(&title, "", &picture.finish(&format!("Harmonics: {title}")))
+    let beside = harmonics.after.iter().zip(&harmonics.limit).filter(|(_, limit)| **limit > 0.0);
+    let left = beside.map(|(after, limit)| after / limit).fold(0.0, f64::max);
+    Panel { left, is_wide: false, picture: card(&title, "", &picture.finish(&format!("Harmonics: {title}"))) }
 }

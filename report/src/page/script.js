@@ -162,6 +162,5 @@
     button.addEventListener("click", () => navigator.clipboard?.writeText(pre.textContent).then(() => { button.textContent = "Copied"; }));
     pre.after(button);
   });
-  addEventListener("beforeprint", () => document.querySelectorAll("details").forEach((d) => { d.open = true; }));
   draw();
 })();

@@ -1,7 +1,7 @@
 //! The five answers that stand first: what happened, what it is, where, how much better, what to do next.
 
 use super::better::better;
-use super::causes::each_once;
+use super::causes::{body_in_words, each_once, sentence_case};
 use super::columns::{self, implausible_values, misread};
 use super::effects::{chance_of_all, headline, moves, place};
 use super::frozen::fitted;
@@ -76,8 +76,8 @@ pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) -> An
             .iter()
             .map(|place| {
                 format!(
-                    "The body {} {} as {} changes: a {}.",
-                    place.body,
+                    "{} {} as {} changes: a {}.",
+                    sentence_case(&body_in_words(&place.body)),
                     moves(&place.dof),
                     place.driver,
                     function_form(&place.form)
@@ -163,8 +163,7 @@ fn badge(diagnosis: &Diagnosis) -> String {
         _ if let Some(rival) = rival(diagnosis) => rival.badge.to_owned(),
         _ if is_worse(diagnosis) => "Worse on held-out data".to_owned(),
         _ if let Some((badge, _)) = fitted(diagnosis) => badge.to_owned(),
-        _ if is_hardly_repeated(diagnosis) && count == 1 => "Possible effect, not confirmed".to_owned(),
-        _ if is_hardly_repeated(diagnosis) => format!("{count} possible effects, not confirmed"),
+        _ if is_hardly_repeated(diagnosis) => "Not enough data".to_owned(),
         Verdict::Confounded if let [effect] = diagnosis.effects.as_slice() => match effect.causes.len() {
             0 | 1 => format!("Effect found, {} possible models", 1 + effect.competing_with.len()),
             causes => format!("Effect found, {causes} possible causes"),
@@ -231,8 +230,8 @@ fn happened(diagnosis: &Diagnosis) -> String {
     }
     if is_hardly_repeated(diagnosis) {
         return match count {
-            1 => "The effect could be chance. Fewer than half of the repeated searches found this effect.",
-            _ => "Each of the effects could be chance. Fewer than half of the repeated searches found them.",
+            1 => "One possible effect could be chance. Fewer than half of the repeated searches found this effect.",
+            _ => "Each of the possible effects could be chance. Fewer than half of the repeated searches found them.",
         }
         .to_owned();
     }

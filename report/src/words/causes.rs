@@ -71,7 +71,7 @@ fn plainly(name: &str) -> String {
         return format!("the drive of {joint} has backlash");
     }
     if let Some((body, axis)) = rest("gravity flexure of ").and_then(at_its_axis) {
-        return format!("the body {body} sags under its own weight, {axis}");
+        return format!("{} sags under its own weight, {axis}", body_in_words(body));
     }
     if let Some(joint) = rest("wind-up of ").and_then(|joint| joint.strip_suffix(" under gravity")) {
         return format!("the axis of {joint} winds up under gravity");
@@ -97,10 +97,18 @@ fn at_its_axis(place: &str) -> Option<(&str, &str)> {
     Some((&place[..at], &place[at + 1..]))
 }
 
-/// What is done to `outer about x`: `tilts outer about x`.
+/// What is done to `outer about x`: `tilts the body outer about x`.
 fn pushed(place: &str) -> String {
     let does = if place.contains(" along ") { "shifts" } else { "tilts" };
-    format!("{does} {place}")
+    match at_its_axis(place) {
+        Some((body, axis)) => format!("{does} {} {axis}", body_in_words(body)),
+        None => format!("{does} {}", body_in_words(place)),
+    }
+}
+
+/// `the body middle`; a name of several words is told as these.
+pub(super) fn body_in_words(body: &str) -> String {
+    format!("the body {}", body.replace('_', " "))
 }
 
 fn times_a_turn(order: &str) -> String {
@@ -185,19 +193,19 @@ mod tests {
     }
 
     #[test]
-    fn names_of_bodies_stay_as_they_are() {
+    fn bodies_are_told_as_such() {
         let told = |name| cause(&named(name));
         assert_eq!(
             told("gravity flexure of axis_2 about x, times pier"),
-            "the body axis_2 sags under its own weight, about x, changing with pier"
+            "the body axis 2 sags under its own weight, about x, changing with pier"
         );
         assert_eq!(
             told("coupling of beta into outer about x, harmonic 2"),
-            "moving beta tilts outer about x, twice per turn"
+            "moving beta tilts the body outer about x, twice per turn"
         );
         assert_eq!(
             told("q2 and q3 together in joint2 about z"),
-            "moving q2 and q3 together tilts joint2 about z"
+            "moving q2 and q3 together tilts the body joint2 about z"
         );
         assert_eq!(sentence_case("q2_a wanders"), "q2_a wanders");
         assert_eq!(sentence_case("étagère"), "Étagère");

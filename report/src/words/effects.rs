@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::causes::{form, sentence_case};
+use super::causes::{body_in_words, form, sentence_case};
 use super::numbers;
 use calibration::diagnose::{Diagnosis, EffectFound, Side};
 use observe::SiUnit;
@@ -32,11 +32,6 @@ pub fn headline(effect: &EffectFound) -> String {
         sentence_case(&body),
         effect.amplitude_of
     )
-}
-
-/// `the body middle`; a name of the instrument's own stays as it is.
-fn body_in_words(body: &str) -> String {
-    format!("the body {}", body.replace('_', " "))
 }
 
 /// `about x`, `along z`, `about x and y`.
@@ -71,7 +66,7 @@ pub fn place(effect: &EffectFound, diagnosis: &Diagnosis) -> String {
         (joints, Side::Before) => format!(", before its joint {}", joints.join(" and ")),
         (joints, Side::After) => format!(", after its joint {}", joints.join(" and ")),
     };
-    format!("a {} in the body {}{side}", motion(&effect.dof), effect.body)
+    format!("a {} in {}{side}", motion(&effect.dof), body_in_words(&effect.body))
 }
 
 /// `rotation about x`, `translation along z`.

@@ -15,6 +15,10 @@ pub(super) fn model(name: RungName) -> &'static str {
     }
 }
 
+/// What marks a line of the table of models.
+pub const SIMPLEST: &str =
+    "✓ marks the simplest model that no other beats by more than the standard error of the difference.";
+
 /// A line of the table of models.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelLine {

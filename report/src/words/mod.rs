@@ -35,7 +35,7 @@ pub use components::{component_in_words, side};
 pub use effects::{bias, chance_of, evidence, headline, motion, place};
 pub use errors::{EstimateLine, Estimates, estimates, not_shown as errors_not_shown, wanted_not_shown};
 pub use hidden::{fate, size};
-pub use ladder::{ModelLine, Stage, missing_models, models, stages};
+pub use ladder::{ModelLine, SIMPLEST, Stage, missing_models, models, stages};
 pub use left::{function_form, remaining};
 pub use measure::pose_tables;
 pub use next::PoseTable;

@@ -21,6 +21,8 @@ const PANEL: (f64, f64) = (330.0, 230.0);
 const COLOURS: [&str; 5] = ["#9ecae1", "#6baed6", "#4292c6", "#2171b5", "#08306b"];
 /// A line of the figure takes every third point of the curve: that is smooth at the size of a panel.
 const EVERY: usize = 3;
+/// The top of an axis against the largest influence on it.
+const HEADROOM: f64 = 1.01;
 /// Against the largest influence of all: below this an error does nothing that a figure can show.
 const VISIBLE: f64 = 1e-6;
 
@@ -73,12 +75,14 @@ pub fn svg(chain: &Chain, observable: ObservableId, curves: &Curves) -> Option<S
                 Plot::Line(line.with_color(colour).with_stroke_width(1.5))
             })
             .collect();
-        layouts.push(
-            Layout::auto_from_plots(&lines)
-                .with_title(letters::plain(&chain.symbol(error).latex))
-                .with_x_label("t, rad")
-                .with_y_label(format!("influence, {unit}")),
-        );
+        let mut layout = Layout::auto_from_plots(&lines)
+            .with_title(letters::plain(&chain.symbol(error).latex))
+            .with_x_label("t, rad")
+            .with_y_label(format!("influence, {unit}"));
+        // From zero on, an influence that does not change is a level line, and not its rounding.
+        let top = factor * of_error.iter().map(|curve| largest(curve)).fold(0.0, f64::max);
+        (layout.data_y_range, layout.y_range) = (Some((0.0, top)), (0.0, HEADROOM * top));
+        layouts.push(layout);
         panels.push(lines);
     }
     let across = ACROSS.min(errors.len());
@@ -89,4 +93,31 @@ pub fn svg(chain: &Chain, observable: ObservableId, curves: &Curves) -> Option<S
         .with_layouts(layouts)
         .with_cell_size(PANEL.0, PANEL.1);
     Some(SvgBackend.render_scene(&figure.render()))
+}
+
+#[cfg(test)]
+mod tests {
+    use model_core::budget::{Curve, Curves};
+    use model_core::{Chain, ObservableId};
+
+    use super::{COLOURS, svg};
+
+    #[test]
+    fn an_influence_that_does_not_change_is_a_level_line() {
+        let text = "chain Table { body top on ground { motion: Rz(turn); motion_error: Rz(index); } \
+                    observe edge: direction(1, 0, 0) of top; }";
+        let chain = Chain::from_text(text).expect("a declaration");
+        let error = chain.find_symbol("index").expect("it has it");
+        let t: Vec<f64> = (0..31).map(|k| 0.2 * f64::from(k)).collect();
+        // What rounding makes of five arc seconds.
+        let rounded = |k: u32| 24.24e-6 * (1.0 + f64::EPSILON * f64::from(k % 3));
+        let curve = Curve { error, size: 24.24e-6, influence: (0..31).map(rounded).collect() };
+        let drawn = svg(&chain, ObservableId(0), &Curves { t, curves: vec![curve] }).expect("a figure");
+        let line = drawn.split("<path ").find(|path| path.contains(COLOURS[4])).expect("a line");
+        let points = line.split('"').nth(1).expect("its points");
+        let heights: Vec<&str> =
+            points.split(['M', 'L']).filter_map(|point| point.split_whitespace().nth(1)).collect();
+        assert!(heights.len() > 8 && heights.iter().all(|height| *height == heights[0]), "{points}");
+        assert!(drawn.contains("text-anchor=\"end\">0</text>"), "{drawn}");
+    }
 }

@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use model_core::mistake::Mistake;
 use model_core::unit::Measures;
-use model_core::{Chain, SymbolId, SymbolKind, names};
+use model_core::{Chain, Quantity, Symbol, SymbolId, SymbolKind, names};
 use serde::de::{self, Deserialize, Deserializer, IntoDeserializer as _};
 use tables::units::{Amount, Plausible};
 use toml::Spanned;
@@ -30,7 +30,7 @@ pub const FOUND_OVER: &str = "found-over";
 /// What stands behind a key.
 enum Entry {
     Amount(Amount),
-    Ranges(Ranges),
+    Table(BTreeMap<Spanned<String>, Spanned<toml::Value>>),
 }
 
 impl<'de> Deserialize<'de> for Entry {
@@ -56,7 +56,7 @@ impl<'de> Deserialize<'de> for Entry {
             }
 
             fn visit_map<A: de::MapAccess<'de>>(self, map: A) -> Result<Entry, A::Error> {
-                Deserialize::deserialize(de::value::MapAccessDeserializer::new(map)).map(Entry::Ranges)
+                Deserialize::deserialize(de::value::MapAccessDeserializer::new(map)).map(Entry::Table)
             }
         }
         deserializer.deserialize_any(Visitor)
@@ -76,6 +76,37 @@ pub struct FoundOver {
 
 /// The ranges of readings by names, each with its place.
 pub(crate) type Ranges = BTreeMap<Spanned<String>, Spanned<[Amount; 2]>>;
+
+/// What to write where a pattern means errors of two kinds, and its quantity fits one of them.
+fn both_kinds(pattern: &str, symbol: &Symbol) -> String {
+    let size = match symbol.quantity {
+        Quantity::Angle => "\"10 arcsec\"",
+        Quantity::Length => "\"0.1 mm\"",
+        Quantity::Number => "1e-5",
+    };
+    format!(
+        "`{pattern}` matches angles and lengths: add a line for the others, such as {} = {size}, which wins over the pattern",
+        symbol.name
+    )
+}
+
+/// The two quantities of a range.
+fn range_of(
+    source: &Source,
+    (name, range): (Spanned<String>, Spanned<toml::Value>),
+) -> Result<(Spanned<String>, Spanned<[Amount; 2]>), Refusal> {
+    let place = range.span();
+    let range = range.into_inner();
+    let is_pair = range.as_array().is_some_and(|bounds| bounds.len() == 2);
+    match <[Amount; 2]>::deserialize(range) {
+        Ok(bounds) => Ok((name, Spanned::new(place, bounds))),
+        Err(error) if is_pair => Err(source.mistake(Mistake::new(place, error.message()))),
+        Err(_) => {
+            let mistake = Mistake::new(place, format!("`{}` has no two bounds", name.get_ref()));
+            Err(source.mistake(mistake.with_help("write both in a list, as in [\"10 deg\", \"80 deg\"]")))
+        }
+    }
+}
 
 /// What a file says of errors, as it is written: a file of its own, or a part of an instrument file.
 pub(crate) struct Given<'s> {
@@ -108,10 +139,13 @@ impl<'s> Given<'s> {
                 Entry::Amount(amount) => {
                     given.amounts.insert(name, Spanned::new(place, amount));
                 }
-                Entry::Ranges(ranges) if name.get_ref() == FOUND_OVER => given.ranges = ranges,
-                Entry::Ranges(_) => {
+                Entry::Table(ranges) if name.get_ref() == FOUND_OVER => {
+                    given.ranges =
+                        ranges.into_iter().map(|own| range_of(source, own)).collect::<Result<_, _>>()?;
+                }
+                Entry::Table(_) => {
                     let message = format!("`{}` is a table, and errors have values", name.get_ref());
-                    let help = format!("write a quantity; the one table here is [{FOUND_OVER}]");
+                    let help = "leave the line out, and write each error as a line of its own, such as tilt_x = \"10 arcsec\"";
                     return Err(source.mistake(Mistake::new(name.span(), message).with_help(help)));
                 }
             }
@@ -168,14 +202,22 @@ impl<'s> Given<'s> {
                     let help = format!("write `{} = …` as well: a plain name wins", symbol.name);
                     return Err(source.mistake(Mistake::new(name.span(), message).with_help(help)));
                 }
-                winners.insert(id, amount);
+                winners.insert(id, (name, amount));
             }
         }
         // What is overruled need not fit: `"*" = "10 arcsec"` beside a plain name for a length.
-        for (id, amount) in winners {
+        for (&id, &(name, amount)) in &winners {
             let symbol = chain.symbol(id);
             let value = amount.get_ref().to_si(symbol.quantity).map_err(|why| {
-                source.mistake(Mistake::new(amount.span(), format!("{}: {why}", symbol.name)))
+                let mistake = Mistake::new(amount.span(), format!("{}: {why}", symbol.name));
+                let fits = |id: SymbolId| amount.get_ref().to_si(chain.symbol(id).quantity).is_ok();
+                let of_both =
+                    winners.iter().any(|(&other, (own, _))| own.span() == name.span() && fits(other));
+                source.mistake(if of_both {
+                    mistake.with_help(both_kinds(name.get_ref(), symbol))
+                } else {
+                    mistake
+                })
             })?;
             settings.insert(id, (value, amount.span()));
         }
@@ -224,7 +266,14 @@ pub fn named_values(source: &Source, chain: &Chain, warn: Warn<'_>) -> Result<Ve
 /// As [`values`], and a negative size.
 pub fn largest_sizes(source: &Source, chain: &Chain, warn: Warn<'_>) -> Result<Vec<f64>, Refusal> {
     let mut sizes = vec![0.0; chain.symbols.len()];
-    for (id, (size, place)) in Given::of(source)?.settings(chain, &[SymbolKind::Error], warn)? {
+    let settings = Given::of(source)?.settings(chain, &[SymbolKind::Error], warn)?;
+    if settings.is_empty() {
+        return Err(Refusal::Input(format!(
+            "`{}` has no size of an error: write lines such as \"*\" = \"10 arcsec\"",
+            source.path.display()
+        )));
+    }
+    for (id, (size, place)) in settings {
         if size < 0.0 {
             let mistake = Mistake::new(place, "a largest size cannot be negative");
             return Err(source.mistake(mistake.with_help("write its absolute value")));

@@ -195,7 +195,7 @@ impl Table {
         let cell = || self.cell(row.record, row.number, column);
         match marks.read(text, self.separator) {
             Some(Ok(number)) if number.is_finite() => Ok(number),
-            Some(Err(why)) => Err(DataError::MixedMarks { cell: cell(), why }),
+            Some(Err(why)) => Err(DataError::UnusableCell { cell: cell(), why }),
             Some(_) => Err(DataError::NotFinite { cell: cell(), text: clipped(text) }),
             None if text.is_empty() => Err(DataError::EmptyCell { cell: cell() }),
             None => sexagesimal(text, factor)

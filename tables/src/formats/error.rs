@@ -83,6 +83,14 @@ pub enum DataError {
         /// Name of the file.
         file: String,
     },
+    /// Columns that take their readings from rows so far away that no row has all of them.
+    #[error("{file}: `shift` leaves none of {rows} rows: write a smaller number of rows")]
+    ShiftedAway {
+        /// Names of the files.
+        file: String,
+        /// The rows that there are.
+        rows: usize,
+    },
     /// More rows than their numbers have room for.
     #[error("{file}: these are more than {} rows, the most that one fit holds: fit a part of them", u32::MAX)]
     TooManyRows {
@@ -150,19 +158,19 @@ pub enum DataError {
         found: usize,
     },
     /// A cell that is no number.
-    #[error("{cell}: `{text}` is no number")]
+    #[error("{cell}: `{text}` is no number: fill in a number, or leave the row out")]
     NotANumber {
         /// Where.
         cell: Cell,
         /// What stands there.
         text: String,
     },
-    /// Numbers with a decimal comma and numbers with a decimal point.
+    /// A cell that is not what its column holds: with another decimal mark, beyond a pole.
     #[error("{cell}: {why}")]
-    MixedMarks {
+    UnusableCell {
         /// Where.
         cell: Cell,
-        /// What stands there and elsewhere, and what to write.
+        /// What stands there, and what to write.
         why: String,
     },
     /// A cell without anything in it.

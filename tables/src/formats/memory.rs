@@ -216,7 +216,10 @@ mod tests {
             ),
             (&[("az", Column::Numbers(&[1.0, f64::NAN]))], "frame: row 2, column `az`: `NaN` is not finite"),
             (&[("az", Column::Texts(&texts[..2]))], "frame: row 2, column `az`: the cell is empty"),
-            (&[("az", Column::Texts(&texts[2..3]))], "frame: row 1, column `az`: `x` is no number"),
+            (
+                &[("az", Column::Texts(&texts[2..3]))],
+                "frame: row 1, column `az`: `x` is no number: fill in a number, or leave the row out",
+            ),
             (&[("az", Column::Texts(&texts[3..]))], "frame: row 1, column `az`: `inf` is not finite"),
         ];
         for (columns, expected) in cases {

@@ -118,7 +118,8 @@ impl<'t> Reading<'t> {
             let dec = self.angle(place.dec, row, DEGREE)? / DEGREE;
             if dec.abs() > 90.0 {
                 let cell = self.rows.cell(place.dec, row);
-                return Err(DataError::NotANumber { cell, text: format!("{dec}, beyond a pole,") });
+                let why = format!("{dec} is beyond a pole: write a declination from -90 to 90 degrees");
+                return Err(DataError::UnusableCell { cell, why });
             }
             Ok(clock.seen(self.equinoxes[side], [ra, dec]))
         };
@@ -138,9 +139,9 @@ impl<'t> Reading<'t> {
                 Calendar::JulianDay => number().map(Moment::of_julian_day),
                 Calendar::ModifiedJulianDay => number().map(Moment::of_modified_julian_day),
             };
-            instant.ok_or_else(|| DataError::NotANumber {
+            instant.ok_or_else(|| DataError::UnusableCell {
                 cell: self.rows.cell(at, row),
-                text: format!("{}, which is no date and time such as 2026-01-31T18:01:00,", clipped(text)),
+                why: format!("`{}` is no date and time: write it as 2026-01-31T18:01:00", clipped(text)),
             })
         });
         let instant = instant.transpose()?;
@@ -181,9 +182,9 @@ impl<'t> Reading<'t> {
             "1" if is_numbered => Some(-1.0),
             text => pier(text),
         };
-        side.ok_or_else(|| DataError::NotANumber {
+        side.ok_or_else(|| DataError::UnusableCell {
             cell: self.rows.cell(column, row),
-            text: format!("{}, which is no side of a pier: write East or West,", clipped(text)),
+            why: format!("`{}` is no side of a pier: write East or West", clipped(text)),
         })
     }
 }
@@ -249,7 +250,7 @@ mod tests {
     fn cells_that_cannot_be_read_have_their_place() {
         for (from, to, why) in [
             ("+20 30 36", "+20 75 36", "line 2, row 1, column `solved_dec`: `+20 75 36` is no number"),
-            ("East", "up", "line 2, row 1, column `pier side`: `up, which is no side"),
+            ("East", "up", "line 2, row 1, column `pier side`: `up` is no side of a pier"),
             ("-00 30 00", "-95", "beyond a pole"),
             ("8:0:0", "", "line 3, row 2, column `solved_ra`: the cell is empty"),
             ("8:0:0", "1e300", "is no number"),

@@ -22,6 +22,8 @@ pub struct Equality {
 pub struct EqualityVerdict {
     /// The first formula less the second. The claim holds if it is zero.
     pub difference: Fraction,
+    /// Whether both are roots, and the difference is that of their squares.
+    pub of_squares: bool,
 }
 
 impl Equality {
@@ -66,6 +68,18 @@ impl Equality {
     }
 }
 
+impl EqualityVerdict {
+    /// What the difference is one of, in words before it.
+    #[must_use]
+    pub fn words(&self) -> &'static str {
+        if self.of_squares {
+            "the square of the first less the square of the second is "
+        } else {
+            "the first less the second is "
+        }
+    }
+}
+
 impl Checker<'_> {
     /// The verdict on an equality.
     ///
@@ -77,6 +91,6 @@ impl Checker<'_> {
         let shown = |poly| algebraic::in_wholes(poly, self.chain);
         let difference = Fraction::new(shown(&difference.above), shown(&difference.below))
             .unwrap_or_else(|| unreachable!("no printed formula stands over zero"));
-        Ok(EqualityVerdict { difference })
+        Ok(EqualityVerdict { difference, of_squares: claim.printed.of_squares })
     }
 }

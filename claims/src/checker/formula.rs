@@ -7,9 +7,9 @@ use super::lowering::{self, Sines};
 use super::order::Order;
 use super::series;
 use super::written::{Read, TextPlace, Written, component, expressions, in_text};
-use crate::latex::{Notes, PrintedSymbols};
+use crate::latex::{self, Beside, Notes, PrintedSymbols};
 use model_core::algebra::{AlgebraError, Fraction, Poly, Rational};
-use model_core::chain::reading::Reading;
+use model_core::chain::reading::{Measures, Reading};
 use model_core::chain::{Axis, Chain, Observable};
 use model_core::expr::{Expr, Node};
 use model_core::mistake::Mistake;
@@ -32,6 +32,8 @@ pub struct PrintedVector {
     pub truncated: bool,
     /// Whether rotations about named axes were read as the table of symbols says.
     pub turned: bool,
+    /// Whether two roots are compared by what stands below them.
+    pub(super) of_squares: bool,
 }
 
 /// One component of a printed formula.
@@ -49,11 +51,12 @@ impl PrintedVector {
     /// Whether everything is in the names of the chain alone, without quotients, and nothing was dropped.
     #[must_use]
     pub fn is_plain(&self) -> bool {
-        let Self { components, halves, has_roots, truncated, turned } = self;
+        let Self { components, halves, has_roots, truncated, turned, of_squares } = self;
         halves.is_empty()
             && !has_roots
             && !truncated
             && !turned
+            && !of_squares
             && components.iter().all(|component| component.value.is_whole())
     }
 
@@ -86,7 +89,7 @@ impl PrintedVector {
         texts: &[&str],
         order: Order,
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
-        let symbols = symbols.reading(texts);
+        let symbols = symbols.reading(texts).into_owned().beside(beside(&observable.shown));
         let axes: Vec<Option<usize>> =
             observable.shown.iter().map(|reading| reading.component().map(Axis::index)).collect();
         let mut written = expressions(&symbols, &axes, texts)?;
@@ -108,7 +111,8 @@ impl PrintedVector {
         place: Axis,
         order: Order,
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
-        let symbols = symbols.reading(&[text]);
+        let own = observable.shown.get(place.index()).map_or(&[][..], std::slice::from_ref);
+        let symbols = symbols.reading(&[text]).into_owned().beside(beside(own));
         let axis = observable.shown.get(place.index()).and_then(Reading::component);
         let written = component(&symbols, 0, text, axis.map(Axis::index))?;
         let (_, expression) = &written.components[0];
@@ -143,8 +147,18 @@ impl PrintedVector {
         let mut notes = Notes::default();
         let mut components = Vec::with_capacity(3);
         let mut mistakes = Vec::new();
-        for (index, text) in texts.into_iter().enumerate() {
-            let read = component(&symbols, index, text, None).and_then(|written| {
+        // Roots are equal where what stands below them is.
+        let below = texts.map(|text| latex::read_total(text, &symbols));
+        let are_roots = below.iter().all(Result::is_ok)
+            && texts.iter().any(|text| component(&symbols, 0, text, None).is_err());
+        for ((index, text), below) in texts.into_iter().enumerate().zip(below) {
+            let read = match below {
+                Ok(below) if are_roots => {
+                    Ok(Read { components: vec![(index, below)], notes: Notes::default() })
+                }
+                _ => component(&symbols, index, text, None),
+            };
+            let read = read.and_then(|written| {
                 notes.join(&written.notes);
                 let one = written.components.into_iter().next();
                 let (text_index, expression) = one.unwrap_or_else(|| unreachable!("one formula was read"));
@@ -165,7 +179,7 @@ impl PrintedVector {
         let zero = Expr { node: Node::Number(Rational::ZERO), place: whole.clone() };
         let nothing =
             PrintedComponent { text_index: 0, expression: zero, value: Fraction::whole(Poly::zero()) };
-        Self::of_components([first, second, nothing])
+        Self { of_squares: are_roots, ..Self::of_components([first, second, nothing]) }
             .noting(notes)
             .normalised(chain)
             .map_err(|error| vec![in_text(0, Mistake::new(whole, error.to_string()))])
@@ -231,7 +245,14 @@ impl PrintedVector {
     }
 
     fn of_components(components: [PrintedComponent; 3]) -> Self {
-        Self { components, halves: Vec::new(), has_roots: false, truncated: false, turned: false }
+        Self {
+            components,
+            halves: Vec::new(),
+            has_roots: false,
+            truncated: false,
+            turned: false,
+            of_squares: false,
+        }
     }
 
     pub(super) fn noting(self, notes: Notes) -> Self {
@@ -300,6 +321,17 @@ impl PrintedVector {
         } else {
             derived
         })
+    }
+}
+
+/// What a cosine beside a name is, of these numbers.
+fn beside(shown: &[Reading]) -> Beside {
+    let is_sideways = |reading: &Reading| matches!(reading.measures, Measures::CrossElevation { .. });
+    let is_azimuth = |reading: &Reading| matches!(reading.measures, Measures::Azimuth { .. });
+    match (shown.iter().any(is_sideways), shown.iter().any(is_azimuth)) {
+        (true, true) => Beside::Unclear,
+        (true, false) => Beside::Name,
+        (false, _) => Beside::Factor,
     }
 }
 

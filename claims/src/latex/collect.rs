@@ -2,9 +2,11 @@
 
 use std::ops::Range;
 
+use super::commands::TYPEFACES;
 use super::glyph::{self, Glyph};
 use super::layout;
 use super::left;
+use super::naming;
 use super::token::{Kind, Token};
 
 /// Every symbol of a formula in one normal form, in the order in which they stand; Δ, δ and d belong to the letter behind them.
@@ -72,17 +74,23 @@ pub fn rows_of(text: &str) -> Vec<String> {
     if found.is_empty() { whole() } else { found }
 }
 
-/// `A = B = C` as `A = B` and `A = C`; an equation with one `=`, or none, as it is.
+/// `A = B = C` as `A = B` and `A = C`, without sides that only say which derivative it is; an equation with one `=`, or none, as it is.
 #[must_use]
 pub fn equalities_of(text: &str) -> Vec<String> {
     let sides = sides_of(text, |_| true);
     match sides.as_slice() {
-        [name, first, rest @ ..] if !rest.is_empty() => {
+        [name, rest @ ..] if rest.len() > 1 => {
             let said = |side: &Range<usize>| format!("{} = {}", &text[name.clone()], &text[side.clone()]);
-            std::iter::once(first).chain(rest).map(said).collect()
+            rest.iter().filter(|side| !is_derivative(&text[(*side).clone()])).map(said).collect()
         }
         _ => vec![text.to_owned()],
     }
+}
+
+/// Whether a text is the name of a derivative, `\partial p/\partial q`, which says what another name means.
+#[must_use]
+pub fn is_derivative(text: &str) -> bool {
+    left::tokens(text).is_ok_and(|tokens| naming::is_derivative(&tokens))
 }
 
 /// Where the sides of one line of equalities stand, `a = b = c`; nothing where the text is of several lines or has no `=`.
@@ -135,6 +143,12 @@ fn written_place(text: &str, place: Range<usize>) -> Range<usize> {
     while count(start, end, '{') > count(start, end, '}') {
         let Some(close) = text[end..].find('}') else { break };
         end += close + 1;
+    }
+    // `\mathbf p`: what says that a letter is bold stands before its token.
+    let before = text[..start].trim_end();
+    let name = before.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+    if name.ends_with('\\') && TYPEFACES.contains(&&before[name.len()..]) {
+        start = name.len() - 1;
     }
     start..end
 }

@@ -81,6 +81,16 @@ pub(super) const RELATIONS: [&str; 9] =
 /// The functions of the language of amounts, as control words.
 pub(super) const FUNCTIONS: [&str; 6] = ["sin", "cos", "tan", "cot", "sec", "csc"];
 
+/// The function that other countries call by another word: `\operatorname{tg}`.
+pub(super) fn other_word(word: &str) -> Option<&'static str> {
+    Some(match word {
+        "tg" => "tan",
+        "ctg" | "cotg" => "cot",
+        "cosec" => "csc",
+        _ => return None,
+    })
+}
+
 /// The function of three arguments, `\operatorname{ramp}(x, from, to)`.
 pub(super) const RAMP: &str = "ramp";
 

@@ -87,7 +87,8 @@ pub(super) fn sides(text: &str, mut tokens: Vec<Token>) -> Result<Vec<Vec<Token>
     Ok(sides.into_iter().map(trimmed).collect())
 }
 
-/// Equations that stand beside one another: parts between wide spaces, or between a comma and a column, that have each a sign of equality.
+/// Equations that stand beside one another: parts between wide spaces, or between a comma and a column, that have each a sign of equality;
+/// otherwise parts between commas that have.
 pub(super) fn beside(text: &str, mut tokens: Vec<Token>) -> Result<Vec<Vec<Token>>, Unreadable> {
     without_numbers(&mut tokens)?;
     without_math(text, &mut tokens)?;
@@ -101,15 +102,21 @@ pub(super) fn beside(text: &str, mut tokens: Vec<Token>) -> Result<Vec<Vec<Token
             tokens[at].kind = Kind::Wide;
         }
     }
-    let mut pieces = split(&tokens, |kind| *kind == Kind::Wide);
-    for piece in &mut pieces {
-        while piece.last().is_some_and(|token| is_comma(&token.kind) || token.kind == Kind::Mark('.')) {
-            piece.pop();
+    let equations = |parts: &dyn Fn(&Kind) -> bool| {
+        let mut pieces = split(&tokens, parts);
+        for piece in &mut pieces {
+            let ends =
+                |token: &Token| is_comma(&token.kind) || matches!(token.kind, Kind::Mark('.') | Kind::Wide);
+            while piece.last().is_some_and(ends) {
+                piece.pop();
+            }
         }
-    }
-    pieces.retain(|piece| !piece.is_empty());
-    let is_equation = |piece: &Vec<Token>| split(piece, |kind| *kind == Kind::Mark('=')).len() > 1;
-    Ok(if pieces.iter().all(is_equation) { pieces } else { Vec::new() })
+        pieces.retain(|piece| !piece.is_empty());
+        let is_equation = |piece: &Vec<Token>| split(piece, |kind| *kind == Kind::Mark('=')).len() > 1;
+        if pieces.iter().all(is_equation) { pieces } else { Vec::new() }
+    };
+    let spaced = equations(&|kind| *kind == Kind::Wide);
+    Ok(if spaced.len() > 1 { spaced } else { equations(&|kind| is_comma(kind) || *kind == Kind::Wide) })
 }
 
 /// A comma or a semicolon, which parts a list.

@@ -2,10 +2,16 @@
 
 use super::Unreadable;
 use super::glyph;
+use super::spaced;
 use super::token::{self, Kind, Token};
 
-/// Splits a text into tokens, with indices on the left marked.
+/// Splits a text into tokens, with indices on the left marked, and commas where a list has spaces.
 pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Unreadable> {
+    Ok(spaced::with_commas(text, as_set(text)?))
+}
+
+/// The same tokens as a text has them, without commas that it has not.
+pub(super) fn as_set(text: &str) -> Result<Vec<Token>, Unreadable> {
     Ok(marked(token::tokens(text)?))
 }
 

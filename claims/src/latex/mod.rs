@@ -20,10 +20,13 @@ mod glyph;
 mod layout;
 mod left;
 mod lookup;
+mod mathml;
 mod naming;
 mod parser;
 mod printed;
 pub mod program;
+mod signs;
+mod spaced;
 mod token;
 mod typed;
 mod unknown;
@@ -40,9 +43,12 @@ use model_core::expr::Expr;
 use model_core::mistake::Mistake;
 use parser::{Matrix, Parser, Value};
 
-pub use collect::{definition_of, equal_sides, equalities_of, equations_beside, rows_of, symbols_in};
+pub use collect::{
+    definition_of, equal_sides, equalities_of, equations_beside, is_derivative, rows_of, symbols_in,
+};
+pub use mathml::mathml;
 pub use parser::Notes;
-pub use printed::{PrintedSymbols, Turned};
+pub use printed::{Beside, PrintedSymbols, Turned};
 
 /// Why and where a formula cannot be read: bytes of its text.
 pub type Unreadable = Mistake<Range<usize>>;
@@ -85,9 +91,8 @@ pub fn read_component(
             second.name.first().or(second.formula.first()).map_or(second.end, |token| token.place.clone());
         return Err(Mistake::new(place, "a second formula, where one component stands"));
     }
-    naming::check(text, &row, axis)?;
     let (value, notes) = value(text, &row, symbols)?;
-    Ok((value.scalar()?, notes))
+    Ok((naming::named(text, &row, symbols, axis, value)?.scalar()?, notes))
 }
 
 /// Reads a printed vector, `[a, b, c]^T`, `\begin{bmatrix} a \\ b \\ c \end{bmatrix}`, three rows, or sums and products of
@@ -105,10 +110,10 @@ pub fn read_vector(
     let mut notes = Notes::default();
     let alone = rows.len() == 1;
     for (at, row) in rows.iter().enumerate() {
-        naming::check(text, row, axes.get(at).copied().flatten().filter(|_| !alone))?;
         let (value, own) = value(text, row, symbols)?;
         notes.join(&own);
-        match value {
+        let axis = axes.get(at).copied().flatten().filter(|_| !alone);
+        match naming::named(text, row, symbols, axis, value)? {
             Value::Matrix(matrix) if alone && matrix.is_vector() => components.extend(matrix.entries),
             value => components.push(value.scalar()?),
         }
@@ -139,7 +144,10 @@ pub fn read_matrix(text: &str, symbols: &PrintedSymbols) -> Result<PrintedMatrix
         return Err(Mistake::new(0..text.len(), "one matrix is wanted"));
     };
     let (value, notes) = value(text, row, symbols)?;
-    PrintedMatrix::of(value, notes)
+    if naming::is_derivative(&row.name) {
+        return PrintedMatrix::of(value, notes);
+    }
+    PrintedMatrix::of(naming::named(text, row, symbols, None, value)?, notes)
 }
 
 impl PrintedMatrix {
@@ -160,10 +168,17 @@ pub fn read_total(text: &str, symbols: &PrintedSymbols) -> Result<Formula, Unrea
     let [row] = rows.as_slice() else {
         return Err(Mistake::new(0..text.len(), "one formula is wanted"));
     };
+    naming::is_name_alone(text, row, symbols)?;
     let mut parser = Parser::new(text, &row.formula, row.end.clone(), symbols);
     let radicand = parser.radicand()?;
     parser.expect_end()?;
     Ok(radicand)
+}
+
+/// The mistake that amounts stand around a name in a way that cannot be solved for it.
+fn more_than_a_name(place: Range<usize>) -> Unreadable {
+    Mistake::new(place, "what stands on the left of `=` is more than a name")
+        .with_help("give the right-hand side alone")
 }
 
 fn value(text: &str, row: &Row, symbols: &PrintedSymbols) -> Result<(Value, Notes), Unreadable> {

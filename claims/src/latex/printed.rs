@@ -25,6 +25,20 @@ pub struct PrintedSymbols {
     pub(super) turned: Turned,
     /// Whether `c_1` and `s_1` are a cosine and a sine.
     pub(super) abbreviates: bool,
+    /// What a cosine beside the name on the left of `=` is.
+    pub(super) beside: Beside,
+}
+
+/// What a cosine beside the name on the left of `=` is, as in `\Delta A \cos E = …`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Beside {
+    /// A factor, which divides the formula.
+    #[default]
+    Factor,
+    /// A part of the name: what is shown is the error times this cosine.
+    Name,
+    /// One or the other, by which of several numbers it is.
+    Unclear,
 }
 
 /// What the matrix of a rotation about a named axis turns, where a print does not define it.
@@ -176,6 +190,28 @@ impl PrintedSymbols {
         self
     }
 
+    /// The same table for names beside which a cosine means something else.
+    #[must_use]
+    pub fn beside(mut self, beside: Beside) -> Self {
+        self.beside = beside;
+        self
+    }
+
+    /// The same table with a name for an amount, or for a matrix of them, that is looked for.
+    pub(super) fn with_name(&self, wanted: &str, [rows, columns]: [usize; 2]) -> Self {
+        let mut table = self.clone();
+        let meaning = match rows * columns {
+            1 => Meaning::Amount(name(wanted)),
+            count => {
+                let entries = (0..count).map(|at| name(&format!("{wanted} {at}"))).collect();
+                Meaning::Matrix { rows, columns, entries }
+            }
+        };
+        let key = Key { glyphs: vec![Glyph::bare(wanted)], arguments: Vec::new() };
+        table.insert(key, Entry { printed: wanted.to_owned(), meaning, is_declared: false });
+        table
+    }
+
     /// A symbol as it is set, or in another weight if only one is known.
     pub(super) fn entry(&self, glyphs: &[Glyph], arguments: &[Vec<Glyph>]) -> Option<&Entry> {
         let key = Key { glyphs: glyphs.to_vec(), arguments: arguments.to_vec() };
@@ -195,7 +231,7 @@ impl PrintedSymbols {
         self.entries.values().find(|entry| entry.printed == text)
     }
 
-    /// Whether a text is one printed symbol.
+    /// Whether a text is one printed symbol, in the type that it is set in: `\mathbf{r}` is none where only `r` is known.
     pub(crate) fn prints(&self, text: &str) -> bool {
         symbol_key(text).is_ok_and(|key| self.entries.contains_key(&key))
     }

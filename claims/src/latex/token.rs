@@ -4,11 +4,13 @@
 //! and their relatives, changes of typeface. What was typed or pasted as one character becomes what LaTeX has for it
 //! (`typed`). Digits stay single, because TeX's indices and fractions take single ones: `\frac12`, `x_1`.
 
+mod words;
+
 use std::ops::Range;
 
 use super::commands::{
-    BOLD, DISTANCES, FUNCTIONS, NOTES, RAMP, RELATIONS, SIZES, SWITCHES, TYPEFACES, WIDE, WITHOUT_MEANING,
-    is_inverse,
+    BOLD, DISTANCES, FUNCTIONS, NOTES, RELATIONS, SIZES, TYPEFACES, WIDE, WITHOUT_MEANING, is_inverse,
+    other_word,
 };
 use super::{Unreadable, typed};
 use model_core::mistake::Mistake;
@@ -219,7 +221,7 @@ impl Lexer<'_> {
             "prime" => self.push(Kind::Mark('\''), start),
             "circ" | "textdegree" => self.push(Kind::Command("degree".to_owned()), start),
             "cr" | "newline" => self.push(Kind::Row, start),
-            _ => self.push(Kind::Command(name), start),
+            _ => self.push(Kind::Command(other_word(&name).map_or(name, str::to_owned)), start),
         }
         Ok(())
     }
@@ -325,55 +327,6 @@ impl Lexer<'_> {
             }
         }
         self.push(Kind::Math, start);
-    }
-
-    /// `{\rm sin}`: a change of typeface at the start of a group, and the word behind it.
-    fn switched(&mut self, start: usize) -> bool {
-        let inside = self.text[self.at..].trim_start();
-        let Some(command) = inside.strip_prefix('\\') else { return false };
-        let Some(switch) = SWITCHES.iter().find(|switch| {
-            command.strip_prefix(**switch).is_some_and(|rest| rest.starts_with(char::is_whitespace))
-        }) else {
-            return false;
-        };
-        let after_brace = self.at;
-        self.at = self.text.len() - command.len() + switch.len();
-        let is_word = self.word(start);
-        if !is_word {
-            self.at = after_brace;
-        }
-        is_word
-    }
-
-    /// Letters up to the end of the group, as one symbol.
-    fn word(&mut self, start: usize) -> bool {
-        let word_start = self.at;
-        self.skip_while(|c| c.is_alphanumeric() || c == ' ');
-        // A name with an underscore and digits, `\text{from\_1st}`.
-        while self.text[self.at..].starts_with(r"\_") {
-            self.at += 2;
-            self.skip_while(|c| c.is_alphanumeric() || c == ' ');
-        }
-        let word = self.text[word_start..self.at].trim().replace(r"\_", "_");
-        let is_name = word.starts_with(char::is_alphabetic) && !word.contains(' ');
-        if self.peek() != Some('}') || !is_name {
-            return false;
-        }
-        let mut letters = word.chars().map(typed::normal);
-        let typed = match (letters.next(), letters.next()) {
-            (Some(letter), None) => typed::command(letter),
-            _ => None,
-        };
-        let kind = match typed {
-            Some(command) => Kind::Command(command.to_owned()),
-            None if FUNCTIONS.contains(&word.as_str()) || word == RAMP || is_inverse(&word) => {
-                Kind::Command(word)
-            }
-            None => Kind::Word(word),
-        };
-        self.at += 1;
-        self.push(kind, start);
-        true
     }
 
     /// `\begin{bmatrix}`, `\begin{array}{c}`, `\end{…}`.

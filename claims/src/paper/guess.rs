@@ -24,6 +24,13 @@ pub(super) struct Guess {
     pub turned: bool,
 }
 
+impl Guess {
+    /// That two formulas are one.
+    pub fn identity() -> Self {
+        Self { keys: Vec::new(), key: "equal", holds: true, differs: [0, 1], of: None, turned: false }
+    }
+}
+
 /// The statement about the chain that an equation makes: the first true one, or the one that most of its terms agree with.
 pub(super) fn of_equation(
     checker: &mut Checker<'_>,

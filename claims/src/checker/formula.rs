@@ -7,7 +7,7 @@ use super::lowering::{self, Sines};
 use super::order::Order;
 use super::series;
 use super::written::{Read, TextPlace, Written, component, expressions, in_text};
-use crate::latex::{self, Beside, Notes, PrintedSymbols};
+use crate::latex::{self, NameOf, Notes, PrintedSymbols};
 use model_core::algebra::{AlgebraError, Fraction, Poly, Rational};
 use model_core::chain::reading::{Measures, Reading};
 use model_core::chain::{Axis, Chain, Observable};
@@ -73,8 +73,8 @@ impl PrintedVector {
         texts: &[&str],
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
         let symbols = symbols.reading(texts);
-        let axes = [Some(0), Some(1), Some(2)];
-        Self::read_with(chain, expressions(&symbols, &axes, texts)?, &axes, texts, Order::UpTo(1))
+        let names = [0, 1, 2].map(NameOf::Component);
+        Self::read_with(chain, expressions(&symbols, &names, texts)?, &names, texts, Order::UpTo(1))
     }
 
     /// The same for what an observable shows: as many formulas as it shows numbers. In an exact form sines and cosines of
@@ -89,14 +89,13 @@ impl PrintedVector {
         texts: &[&str],
         order: Order,
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
-        let symbols = symbols.reading(texts).into_owned().beside(beside(&observable.shown));
-        let axes: Vec<Option<usize>> =
-            observable.shown.iter().map(|reading| reading.component().map(Axis::index)).collect();
-        let mut written = expressions(&symbols, &axes, texts)?;
+        let symbols = symbols.reading(texts);
+        let names: Vec<NameOf> = observable.shown.iter().map(name_of).collect();
+        let mut written = expressions(&symbols, &names, texts)?;
         if observable.is_orientation() && order == Order::UpTo(1) {
             written.components = of_quaternion(written.components);
         }
-        Self::read_with(chain, written, &axes, texts, order)
+        Self::read_with(chain, written, &names, texts, order)
     }
 
     /// Reads the formula of one of the numbers that an observable shows; the others are not claimed.
@@ -111,10 +110,9 @@ impl PrintedVector {
         place: Axis,
         order: Order,
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
-        let own = observable.shown.get(place.index()).map_or(&[][..], std::slice::from_ref);
-        let symbols = symbols.reading(&[text]).into_owned().beside(beside(own));
-        let axis = observable.shown.get(place.index()).and_then(Reading::component);
-        let written = component(&symbols, 0, text, axis.map(Axis::index))?;
+        let symbols = symbols.reading(&[text]);
+        let name_of = observable.shown.get(place.index()).map_or(NameOf::Formula, name_of);
+        let written = component(&symbols, 0, text, name_of)?;
         let (_, expression) = &written.components[0];
         let value =
             valued(chain, expression, written.notes, order).map_err(|mistake| vec![in_text(0, mistake)])?;
@@ -124,16 +122,16 @@ impl PrintedVector {
         Ok(read.noting(written.notes))
     }
 
-    /// The formulas of texts, each in a text of its own, or all in one; `axes` are the components that they may be named as.
+    /// The formulas of texts, each in a text of its own, or all in one; `names` is what each may be the name of.
     ///
     /// # Errors
     /// What cannot be read, with its place.
     pub fn texts(
         symbols: &PrintedSymbols,
-        axes: &[Option<usize>],
+        names: &[NameOf],
         texts: &[&str],
     ) -> Result<(Vec<Printed>, Notes), Vec<Mistake<TextPlace>>> {
-        let read = expressions(symbols, axes, texts)?;
+        let read = expressions(symbols, names, texts)?;
         Ok((read.components.into_iter().map(|(_, expression)| expression).collect(), read.notes))
     }
 
@@ -150,13 +148,13 @@ impl PrintedVector {
         // Roots are equal where what stands below them is.
         let below = texts.map(|text| latex::read_total(text, &symbols));
         let are_roots = below.iter().all(Result::is_ok)
-            && texts.iter().any(|text| component(&symbols, 0, text, None).is_err());
+            && texts.iter().any(|text| component(&symbols, 0, text, NameOf::Formula).is_err());
         for ((index, text), below) in texts.into_iter().enumerate().zip(below) {
             let read = match below {
                 Ok(below) if are_roots => {
                     Ok(Read { components: vec![(index, below)], notes: Notes::default() })
                 }
-                _ => component(&symbols, index, text, None),
+                _ => component(&symbols, index, text, NameOf::Formula),
             };
             let read = read.and_then(|written| {
                 notes.join(&written.notes);
@@ -188,7 +186,7 @@ impl PrintedVector {
     fn read_with(
         chain: &Chain,
         Read { components: expressions, notes }: Read,
-        axes: &[Option<usize>],
+        names: &[NameOf],
         texts: &[&str],
         order: Order,
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
@@ -206,9 +204,9 @@ impl PrintedVector {
         if !mistakes.is_empty() {
             return Err(mistakes);
         }
-        let has_fourth = count == 4 && axes.len() == 3;
-        if count != axes.len() && !has_fourth {
-            let (wanted, help) = match axes.len() {
+        let has_fourth = count == 4 && names.len() == 3;
+        if count != names.len() && !has_fourth {
+            let (wanted, help) = match names.len() {
                 3 => (
                     "a vector has three".to_owned(),
                     "give x, y and z, and if you like the homogeneous 0 behind them",
@@ -324,14 +322,12 @@ impl PrintedVector {
     }
 }
 
-/// What a cosine beside a name is, of these numbers.
-fn beside(shown: &[Reading]) -> Beside {
-    let is_sideways = |reading: &Reading| matches!(reading.measures, Measures::CrossElevation { .. });
-    let is_azimuth = |reading: &Reading| matches!(reading.measures, Measures::Azimuth { .. });
-    match (shown.iter().any(is_sideways), shown.iter().any(is_azimuth)) {
-        (true, true) => Beside::Unclear,
-        (true, false) => Beside::Name,
-        (false, _) => Beside::Factor,
+/// What the name of a shown number is the name of.
+fn name_of(shown: &Reading) -> NameOf {
+    match shown.measures {
+        Measures::Component(axis) => NameOf::Component(axis.index()),
+        Measures::CrossElevation { .. } => NameOf::Sideways,
+        _ => NameOf::Formula,
     }
 }
 

@@ -47,8 +47,9 @@ pub use collect::{
     definition_of, equal_sides, equalities_of, equations_beside, is_derivative, rows_of, symbols_in,
 };
 pub use mathml::mathml;
+pub use naming::NameOf;
 pub use parser::Notes;
-pub use printed::{Beside, PrintedSymbols, Turned};
+pub use printed::{PrintedSymbols, Turned};
 
 /// Why and where a formula cannot be read: bytes of its text.
 pub type Unreadable = Mistake<Range<usize>>;
@@ -70,17 +71,17 @@ pub fn root_name(prime: i64) -> String {
 /// # Errors
 /// The first thing that cannot be read, with its place.
 pub fn read_formula(text: &str, symbols: &PrintedSymbols) -> Result<Formula, Unreadable> {
-    read_component(text, symbols, None).map(|(formula, _)| formula)
+    read_component(text, symbols, NameOf::Formula).map(|(formula, _)| formula)
 }
 
-/// Reads the formula of one component (0, 1, 2 for x, y, z); a name on the left of `=` may not say another one.
+/// Reads the formula of one number; a name on the left of `=` may not say that it is another one.
 ///
 /// # Errors
 /// The first thing that cannot be read, with its place.
 pub fn read_component(
     text: &str,
     symbols: &PrintedSymbols,
-    axis: Option<usize>,
+    name_of: NameOf,
 ) -> Result<(Formula, Notes), Unreadable> {
     let mut rows = layout::rows(text, left::tokens(text)?, false)?.into_iter();
     let Some(row) = rows.next() else {
@@ -92,18 +93,18 @@ pub fn read_component(
         return Err(Mistake::new(place, "a second formula, where one component stands"));
     }
     let (value, notes) = value(text, &row, symbols)?;
-    Ok((naming::named(text, &row, symbols, axis, value)?.scalar()?, notes))
+    Ok((naming::named(text, &row, symbols, name_of, value)?.scalar()?, notes))
 }
 
 /// Reads a printed vector, `[a, b, c]^T`, `\begin{bmatrix} a \\ b \\ c \end{bmatrix}`, three rows, or sums and products of
-/// vectors and matrices, into its components. `axes` are the components that names on the left of `=` may say, row by row.
+/// vectors and matrices, into its components. `names` says what each row's name on the left of `=` is the name of.
 ///
 /// # Errors
 /// The first thing that cannot be read, with its place.
 pub fn read_vector(
     text: &str,
     symbols: &PrintedSymbols,
-    axes: &[Option<usize>],
+    names: &[NameOf],
 ) -> Result<(Vec<Formula>, Notes), Unreadable> {
     let rows = layout::rows(text, left::tokens(text)?, true)?;
     let mut components = Vec::with_capacity(rows.len());
@@ -112,8 +113,8 @@ pub fn read_vector(
     for (at, row) in rows.iter().enumerate() {
         let (value, own) = value(text, row, symbols)?;
         notes.join(&own);
-        let axis = axes.get(at).copied().flatten().filter(|_| !alone);
-        match naming::named(text, row, symbols, axis, value)? {
+        let name_of = NameOf::in_row(names, at, alone);
+        match naming::named(text, row, symbols, name_of, value)? {
             Value::Matrix(matrix) if alone && matrix.is_vector() => components.extend(matrix.entries),
             value => components.push(value.scalar()?),
         }
@@ -147,7 +148,7 @@ pub fn read_matrix(text: &str, symbols: &PrintedSymbols) -> Result<PrintedMatrix
     if naming::is_derivative(&row.name) {
         return PrintedMatrix::of(value, notes);
     }
-    PrintedMatrix::of(naming::named(text, row, symbols, None, value)?, notes)
+    PrintedMatrix::of(naming::named(text, row, symbols, NameOf::Formula, value)?, notes)
 }
 
 impl PrintedMatrix {

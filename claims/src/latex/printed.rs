@@ -25,20 +25,6 @@ pub struct PrintedSymbols {
     pub(super) turned: Turned,
     /// Whether `c_1` and `s_1` are a cosine and a sine.
     pub(super) abbreviates: bool,
-    /// What a cosine beside the name on the left of `=` is.
-    pub(super) beside: Beside,
-}
-
-/// What a cosine beside the name on the left of `=` is, as in `\Delta A \cos E = …`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Beside {
-    /// A factor, which divides the formula.
-    #[default]
-    Factor,
-    /// A part of the name: what is shown is the error times this cosine.
-    Name,
-    /// One or the other, by which of several numbers it is.
-    Unclear,
 }
 
 /// What the matrix of a rotation about a named axis turns, where a print does not define it.
@@ -187,13 +173,6 @@ impl PrintedSymbols {
     #[must_use]
     pub fn turning(mut self, turned: Turned) -> Self {
         self.turned = turned;
-        self
-    }
-
-    /// The same table for names beside which a cosine means something else.
-    #[must_use]
-    pub fn beside(mut self, beside: Beside) -> Self {
-        self.beside = beside;
         self
     }
 

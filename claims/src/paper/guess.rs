@@ -138,9 +138,9 @@ impl Way {
             }
             Self::Shown { observable, order } => {
                 let shown = chain.observable(observable);
-                let axes = vec![None; shown.shown.len()];
+                let names = vec![latex::NameOf::Formula; shown.shown.len()];
                 let symbols = symbols.reading(&[text]);
-                let (entries, notes) = PrintedVector::texts(&symbols, &axes, &[text]).ok()?;
+                let (entries, notes) = PrintedVector::texts(&symbols, &names, &[text]).ok()?;
                 let matrix = latex::PrintedMatrix { rows: entries.len(), columns: 1, entries, notes };
                 if matrix.entries.len() != shown.shown.len() {
                     return None;

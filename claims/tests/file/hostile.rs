@@ -1,6 +1,6 @@
 //! Whatever stands in a print or in a paper's source is read or refused, never a panic.
 
-use claims::latex::{PrintedSymbols, mathml, program, read_matrix, read_vector, symbols_in};
+use claims::latex::{NameOf, PrintedSymbols, mathml, program, read_matrix, read_vector, symbols_in};
 use claims::paper::{Kind, draft};
 use model_core::Chain;
 use proptest::prelude::*;
@@ -105,7 +105,7 @@ proptest! {
         let entry = model_core::syntax::parse_amount("e").unwrap();
         symbols.define_matrix(r"\vec{\omega}", 1, &[entry.clone(), entry.clone(), entry]).unwrap();
         let symbols = symbols.reading(&[&text]);
-        let _ = read_vector(&text, &symbols, &[Some(0), None, Some(2)]);
+        let _ = read_vector(&text, &symbols, &[NameOf::Component(0), NameOf::Formula, NameOf::Sideways]);
         let _ = read_matrix(&text, &symbols);
         let _ = program::read_vector(&text, &symbols, &[]);
         let _ = program::read_matrix(&text, &symbols);

@@ -86,14 +86,41 @@ fn names_of_vectors_with_amounts_around_them() {
     }
     let sum = r"\Delta\mathbf{r} - R_z(q_1)[a_1, 0, 0]^T = R_z(q_1 + q_2)[a_2, 0, 0]^T";
     assert_eq!(claim(sum), "holds");
-    assert_eq!(claim(&format!(r"l_1 \Delta\mathbf{{r}} = {right}")), "differs");
+    assert_eq!(claim(&format!(r"2 \Delta\mathbf{{r}} = {right}")), "differs");
+    // A length times a change may be a displacement of its own, as in `R\,\Delta\mathbf{n}`.
     for name in [
+        r"l_1 \Delta\mathbf{r}",
         r"R_z(q_1)^T \Delta\mathbf{r}",
         r"\begin{bmatrix} \Delta x + a_1 \\ \Delta y \\ \Delta z \end{bmatrix}",
     ] {
         let said = claim(&format!("{name} = {right}"));
         assert!(said.contains("more than a name"), "{name}: {said}");
     }
+}
+
+/// A change of another size than what is shown is named by the whole product. A number or a sign could be a factor.
+#[test]
+fn a_side_that_changes_another_size_is_a_name_as_a_whole() {
+    let chain = "chain T { body north on ground { motion: Rz(H); }
+     body alidade on north { position_error: Tx(b); motion: Rz(-H); motion_error: Rz(-h0); }
+     input R: length; observe target: point(0, R, 0) of alidade; }";
+    let claim = |component: &str, formula: &str| {
+        let file = format!(
+            "chain = \"t\"\n[symbols]\n'h_0' = \"h0\"\n'K' = \"pi/2 - H\"\n[[claim]]\nname = \"a\"\ncomponent = \"{component}\"\ncomponents = '''{formula}'''\n"
+        );
+        verdict(chain, &file)
+    };
+    for name in [r"R \Delta H", r"\Delta H\,R", r"R\,\mathrm{d}H", r"R \delta K", r"\Delta x", "e_x"] {
+        assert_eq!(claim("x", &format!(r"{name} = R h_0 + b \cos H")), "holds", "{name}");
+        assert_eq!(claim("x", &format!(r"{name} = R h_0 - b \cos H")), "differs", "{name}");
+    }
+    assert_eq!(claim("y", r"\Delta R = b \sin H"), "holds");
+    assert_eq!(claim("y", r"R \Delta y = b \sin H"), "differs");
+    for name in [r"2 R \Delta H", r"-R \Delta H", r"R \Delta L", r"\frac{\Delta H}{b}", r"R \Delta p_{ee}"] {
+        let said = claim("x", &format!(r"{name} = R h_0 + b \cos H"));
+        assert!(said.contains("factors, or a part of the name?"), "{name}: {said}");
+    }
+    assert!(claim("x", r"R \Delta H - b \cos H = R h_0").contains("a part of the name?"));
 }
 
 #[test]
@@ -112,6 +139,7 @@ fn a_cosine_beside_a_name_is_a_factor_or_a_part_of_it() {
         verdict(&mount(shown), &file)
     };
     let (plain, sideways) = ("azimuth, elevation", "cross_elevation, elevation");
+
     let right = r"\Delta A \cos E = I_A \cos E - N \sin E + C";
     let wrong = r"\Delta A \cos E = I_A - N \tan E + C / \cos E";
     for (shown, component) in [(plain, "azimuth"), (sideways, "cross_elevation")] {
@@ -125,6 +153,8 @@ fn a_cosine_beside_a_name_is_a_factor_or_a_part_of_it() {
         let said = azimuth(&format!(r"{name} = I_A - N \tan E + C / \cos E"));
         assert!(said.contains("more than a name"), "{name}: {said}");
     }
+    let sideways_only = |formula: &str| claim(sideways, "cross_elevation", formula);
+    assert!(sideways_only(&right.replacen(r"\Delta", r"2\Delta", 1)).contains("a part of the name?"));
     assert_eq!(claim(plain, "elevation", r"\Delta E \cos E = I_E"), "differs");
     assert_eq!(claim(sideways, "elevation", r"\Delta E \cos E = I_E \cos E"), "holds");
 }

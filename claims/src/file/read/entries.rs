@@ -10,7 +10,7 @@ use super::super::table::{CameraTable, ClaimTable, Texts};
 use super::{Place, Reader, each};
 use crate::checker::entries::{Camera, Entries, EntriesOf};
 use crate::checker::{Claim, Order, PrintedVector, lower};
-use crate::latex::{self, PrintedMatrix, program};
+use crate::latex::{self, NameOf, PrintedMatrix, program};
 
 impl Reader<'_> {
     /// Where a point is, or where a direction points.
@@ -251,9 +251,9 @@ impl Reader<'_> {
     ) -> Option<Claim> {
         let written = each(texts);
         let plain: Vec<&str> = written.iter().map(|(text, _)| *text).collect();
-        let axes: Vec<Option<usize>> = vec![None; labels.len()];
+        let names = vec![NameOf::Formula; labels.len()];
         let symbols = self.symbols.reading(&plain);
-        let (entries, notes) = match PrintedVector::texts(&symbols, &axes, &plain) {
+        let (entries, notes) = match PrintedVector::texts(&symbols, &names, &plain) {
             Ok(read) => read,
             Err(mistakes) => {
                 self.unreadable(texts, mistakes);

@@ -51,7 +51,7 @@ impl Parser<'_> {
 
     /// What stands below the root that a length is.
     pub(super) fn square_of_length(&mut self) -> Result<Formula, Unreadable> {
-        let open = self.peek().map_or(String::new(), |token| name_of(&token.kind));
+        let (open, bar) = (self.peek().map_or(String::new(), |token| name_of(&token.kind)), self.here());
         self.deeper()?;
         self.advance();
         let inside = match BARS.iter().find(|(own, _)| *own == open) {
@@ -61,7 +61,9 @@ impl Parser<'_> {
                 let inside = self.formula()?;
                 let is_closed = self.peek().is_some_and(|token| name_of(&token.kind) == *close);
                 if !is_closed {
-                    return Err(self.unexpected("the bar that closes this length"));
+                    let message =
+                        "an absolute value or a length begins here, and the bar that closes it is missing";
+                    return Err(Mistake::new(bar, message));
                 }
                 self.bars.pop();
                 self.advance();

@@ -30,7 +30,7 @@ pub(in crate::latex) fn solved(
     value: Value,
 ) -> Result<Value, Unreadable> {
     let place = side[name.start].place.start..side[name.end - 1].place.end;
-    let refuse = || more_than_a_name(place.clone());
+    let refuse = || more_than_a_name(side[0].place.start..side[side.len() - 1].place.end);
     let mark = Token { kind: Kind::Word(NAME.to_owned()), place: place.clone(), bold: false };
     let tokens = [&side[..name.start], &[mark], &side[name.end..]].concat();
     let end = side.last().map_or(place.end, |token| token.place.end);
@@ -45,13 +45,18 @@ pub(in crate::latex) fn solved(
     parser.expect_end()?;
     match (left, value) {
         (Value::Scalar(left), Value::Scalar(right)) => {
-            alone(&left, NAME, right).map(Value::Scalar).ok_or_else(refuse)
+            linear(&left, NAME).and_then(|left| alone(left, right)).map(Value::Scalar).ok_or_else(refuse)
         }
         (Value::Matrix(left), Value::Matrix(right))
             if [left.rows, left.columns] == [right.rows, right.columns] =>
         {
             let entries = left.entries.iter().zip(right.entries).enumerate();
-            let entries = entries.map(|(at, (left, right))| alone(left, &format!("{NAME} {at}"), right));
+            let entries = entries.map(|(at, (left, right))| {
+                let name = format!("{NAME} {at}");
+                // `R\,\Delta\mathbf{n}` is a vector of its own.
+                let own = linear(left, &name).filter(|left| left.above.names().is_empty());
+                alone(own?, right)
+            });
             let entries: Option<Vec<Formula>> = entries.collect();
             Ok(Value::Matrix(Matrix::new(right.rows, entries.ok_or_else(refuse)?, right.place)))
         }
@@ -59,9 +64,8 @@ pub(in crate::latex) fn solved(
     }
 }
 
-/// What a name is where `left` is `right`.
-fn alone(left: &Formula, name: &str, right: Formula) -> Option<Formula> {
-    let Linear { above, below, rest } = linear(left, name)?;
+/// What a name is where a side that is linear in it is `right`.
+fn alone(Linear { above, below, rest }: Linear, right: Formula) -> Option<Formula> {
     if is_number(&above, &Rational::ZERO) {
         return None;
     }

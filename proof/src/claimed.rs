@@ -50,6 +50,9 @@ impl Certificate<'_> {
 
     /// What is shown, how a body stands, or a Jacobian.
     fn entries(&mut self, title: &str, entries: &Entries, found: &EntriesVerdict) -> Result<(), Refusal> {
+        if entries.only.is_some() {
+            return Err(Refusal::OneNumber);
+        }
         match (&entries.of, entries.order) {
             (EntriesOf::Image(_), _) => Err(Refusal::Image { reading: "pixels".to_owned() }),
             (EntriesOf::Jacobian { .. }, _) => self.jacobian(title, entries),

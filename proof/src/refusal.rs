@@ -134,6 +134,9 @@ pub enum Refusal {
         "the last row of the printed matrix is not 0 0 0 1. Claim the other rows as a matrix of three columns"
     )]
     LastRow,
+    /// One number of a vector.
+    #[error("certificates speak of whole vectors, and not of one of their numbers. Claim all of them")]
+    OneNumber,
     /// The exact form.
     #[error("certificates speak of forms to an order, and not of the exact form. Claim it to first order")]
     Exact,

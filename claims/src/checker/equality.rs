@@ -3,8 +3,10 @@
 use std::ops::Range;
 
 use super::algebraic;
+use super::lowering::{self, Sines};
+use super::written::in_text;
 use super::{CheckError, Checker, PrintedComponent, PrintedVector, TextPlace};
-use crate::latex::{Notes, PrintedSymbols};
+use crate::latex::{self, Notes, PrintedSymbols};
 use model_core::algebra::{Fraction, Rational};
 use model_core::chain::Chain;
 use model_core::expr::{Expr, Node};
@@ -39,6 +41,50 @@ impl Equality {
         PrintedVector::read_pair(chain, symbols, texts).map(|printed| Self { printed })
     }
 
+    /// Reads two matrices, entry by entry, each with its row and column; `None` where the two are no matrices of one shape.
+    ///
+    /// # Errors
+    /// What says nothing, with its place.
+    #[must_use]
+    #[allow(clippy::type_complexity, reason = "labelled entries or the mistakes of all")]
+    pub fn read_entries(
+        chain: &Chain,
+        symbols: &PrintedSymbols,
+        texts: [&str; 2],
+    ) -> Option<Result<Vec<(String, Self)>, Vec<Mistake<TextPlace>>>> {
+        let symbols = symbols.reading(&texts);
+        let [first, second] = texts.map(|text| latex::read_matrix(text, &symbols));
+        let (first, second) = (first.ok()?, second.ok()?);
+        let mut notes = first.notes;
+        notes.join(&second.notes);
+        if [first.rows, first.columns] != [second.rows, second.columns] || first.entries.len() < 2 {
+            return None;
+        }
+        if notes.truncates || notes.dropped.is_some() {
+            let place = first.entries[0].place.clone();
+            let mistake =
+                Mistake::new(place, "a product of matrices with errors is equal to some order only")
+                    .with_help("claim how the body stands: `frame = '…'` with its `order`");
+            return Some(Err(vec![in_text(0, mistake)]));
+        }
+        let columns = first.columns;
+        let pairs = first.entries.into_iter().zip(second.entries).enumerate();
+        let read = pairs.map(|(at, (first, second))| {
+            let valued = |text_index: usize, expression: Expr<Range<usize>>| match lowering::fraction(
+                chain,
+                &expression,
+                Sines::Series,
+            ) {
+                Ok(value) => Ok(PrintedComponent { text_index, expression, value }),
+                Err(mistake) => Err(vec![in_text(text_index, mistake)]),
+            };
+            let pair = [valued(0, first)?, valued(1, second)?];
+            let printed = PrintedVector::of_pair(chain, pair, false, notes)?;
+            Ok((format!("entry {}, {}", at / columns + 1, at % columns + 1), Self { printed }))
+        });
+        Some(read.collect())
+    }
+
     /// Two formulas that were read from one text.
     pub(super) fn of_expressions(
         chain: &Chain,
@@ -57,7 +103,7 @@ impl Equality {
     }
 
     /// Whether rotations about named axes were read as the table of symbols says.
-    pub(super) fn is_turned(&self) -> bool {
+    pub(crate) fn is_turned(&self) -> bool {
         self.printed.turned
     }
 

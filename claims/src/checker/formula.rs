@@ -173,11 +173,21 @@ impl PrintedVector {
         let Ok([first, second]) = <[PrintedComponent; 2]>::try_from(components) else {
             return Err(mistakes);
         };
-        let whole = 0..texts[0].len();
+        Self::of_pair(chain, [first, second], are_roots, notes)
+    }
+
+    /// Two formulas as x and y.
+    pub(super) fn of_pair(
+        chain: &Chain,
+        [first, second]: [PrintedComponent; 2],
+        of_squares: bool,
+        notes: Notes,
+    ) -> Result<Self, Vec<Mistake<TextPlace>>> {
+        let whole = first.expression.place.clone();
         let zero = Expr { node: Node::Number(Rational::ZERO), place: whole.clone() };
         let nothing =
             PrintedComponent { text_index: 0, expression: zero, value: Fraction::whole(Poly::zero()) };
-        Self { of_squares: are_roots, ..Self::of_components([first, second, nothing]) }
+        Self { of_squares, ..Self::of_components([first, second, nothing]) }
             .noting(notes)
             .normalised(chain)
             .map_err(|error| vec![in_text(0, Mistake::new(whole, error.to_string()))])

@@ -74,10 +74,18 @@ pub fn rows_of(text: &str) -> Vec<String> {
     if found.is_empty() { whole() } else { found }
 }
 
+/// The lines of a display as texts, each with those that go on; one of these may be a chain of equalities.
+#[must_use]
+pub fn lines_of(text: &str) -> Vec<String> {
+    let lines = left::tokens(text).and_then(|tokens| layout::lines(text, tokens)).unwrap_or_default();
+    let place = |line: &Vec<Token>| Some(line.first()?.place.start..line.last()?.place.end);
+    lines.iter().filter_map(place).map(|place| written(text, place).to_owned()).collect()
+}
+
 /// `A = B = C` as `A = B` and `A = C`, without sides that only say which derivative it is; an equation with one `=`, or none, as it is.
 #[must_use]
 pub fn equalities_of(text: &str) -> Vec<String> {
-    let sides = sides_of(text, |_| true);
+    let sides = if lines_of(text).len() > 1 { Vec::new() } else { sides_of(text, |_| true) };
     match sides.as_slice() {
         [name, rest @ ..] if rest.len() > 1 => {
             let said = |side: &Range<usize>| format!("{} = {}", &text[name.clone()], &text[side.clone()]);
@@ -91,6 +99,43 @@ pub fn equalities_of(text: &str) -> Vec<String> {
 #[must_use]
 pub fn is_derivative(text: &str) -> bool {
     left::tokens(text).is_ok_and(|tokens| naming::is_derivative(&tokens))
+}
+
+/// `\partial x/\partial q = …`: which component is derived, if one is, and the printed symbol that it is derived by.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Derivative {
+    /// 0, 1 or 2 for x, y and z; `None` of a whole vector.
+    pub component: Option<usize>,
+    /// As printed.
+    pub by: String,
+}
+
+/// The derivative that a formula gives.
+#[must_use]
+pub fn derivative_of(text: &str) -> Option<Derivative> {
+    let name = name_of(text)?;
+    let [of, by] = naming::derivative(&name)?;
+    let place = by.first()?.place.start..by.last()?.place.end;
+    Some(Derivative { component: naming::shown_axis(of), by: written(text, place).to_owned() })
+}
+
+/// The component that the name of a formula says, `p_x = …`, where it is no difference.
+#[must_use]
+pub fn shown_axis(text: &str) -> Option<usize> {
+    naming::shown_axis(&name_of(text)?)
+}
+
+/// The component that the name of a formula says, be it a difference or not.
+#[must_use]
+pub fn named_component(text: &str) -> Option<usize> {
+    naming::named_axis(&name_of(text)?)
+}
+
+/// The left-hand side of a formula.
+fn name_of(text: &str) -> Option<Vec<Token>> {
+    let rows = layout::rows(text, left::tokens(text).ok()?, false).ok()?;
+    let [row] = rows.as_slice() else { return None };
+    Some(row.name.clone())
 }
 
 /// Where the sides of one line of equalities stand, `a = b = c`; nothing where the text is of several lines or has no `=`.

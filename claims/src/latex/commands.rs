@@ -2,7 +2,7 @@
 //! formula may hold.
 
 /// Control words that only move ink, or that size the bracket behind them.
-pub(super) const WITHOUT_MEANING: [&str; 33] = [
+pub(super) const WITHOUT_MEANING: [&str; 32] = [
     "hline",
     "left",
     "right",
@@ -34,7 +34,6 @@ pub(super) const WITHOUT_MEANING: [&str; 33] = [
     "rm",
     "it",
     "bf",
-    "boxed",
     "allowbreak",
 ];
 

@@ -30,6 +30,16 @@ fn marked(tokens: Vec<Token>) -> Vec<Token> {
             at += 2;
             continue;
         }
+        // `{+}`: without the space around it.
+        if token.kind == Kind::Mark('{')
+            && matches!(kind(1), Some(Kind::Mark('+' | '-' | '*' | '×' | '/' | '=')))
+            && kind(2) == Some(&Kind::Mark('}'))
+            && marked.last().is_none_or(|last| !takes_group(&last.kind) || last.kind == Kind::Mark('}'))
+        {
+            marked.extend(tokens.get(at + 1).cloned());
+            at += 3;
+            continue;
+        }
         // `{}+`: nothing, for the sake of the space before a sign.
         if empty && !is_index && marked.last().is_none_or(|last| !takes_group(&last.kind)) {
             at += 2;

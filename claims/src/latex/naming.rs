@@ -228,8 +228,30 @@ fn check_axis(text: &str, name: &[Token], name_of: NameOf) -> Result<(), Unreada
     }
 }
 
+/// The component that a name says that is no difference: `x`, `p_y`.
+pub(super) fn shown_axis(name: &[Token]) -> Option<usize> {
+    let first = glyph::read(name).ok()??;
+    let is_difference = DIFFERENCES.contains(&first.glyph.base.as_str());
+    if is_difference || first.tokens != name.len() { None } else { named_axis(name) }
+}
+
+/// What `\partial x/\partial q` derives, and by what.
+pub(super) fn derivative(side: &[Token]) -> Option<[&[Token]; 2]> {
+    if !is_derivative(side) {
+        return None;
+    }
+    let stroke = side.iter().position(|token| token.kind == Kind::Mark('/'));
+    match stroke {
+        Some(stroke) => Some([&side[1..stroke], &side[stroke + 2..]]),
+        None => {
+            let above = group_length(&side[1..], ['{', '}']);
+            Some([&side[3..above], &side[above + 3..side.len() - 1]])
+        }
+    }
+}
+
 /// The component that a name says: `x`, `\Delta x`, `e_y`. The last letter of a longer name, `\Delta Az`, says none.
-fn named_axis(name: &[Token]) -> Option<usize> {
+pub(super) fn named_axis(name: &[Token]) -> Option<usize> {
     // As programs name it: `dx`, `delta_y`.
     if let [Token { kind: Kind::Name(name), .. }] = name {
         let letter = name.rsplit('_').next().unwrap_or(name);

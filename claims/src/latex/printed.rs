@@ -25,6 +25,8 @@ pub struct PrintedSymbols {
     pub(super) turned: Turned,
     /// Whether `c_1` and `s_1` are a cosine and a sine.
     pub(super) abbreviates: bool,
+    /// Whether bold `i`, `j` and `k` are unit vectors.
+    pub(super) has_unit_letters: bool,
 }
 
 /// What the matrix of a rotation about a named axis turns, where a print does not define it.
@@ -219,6 +221,12 @@ impl PrintedSymbols {
     #[must_use]
     pub fn knows_symbol(&self, text: &str) -> bool {
         symbol_key(text).is_ok_and(|key| self.entry(&key.glyphs, &key.arguments).is_some())
+    }
+
+    /// The declared name that a text is the printed symbol of.
+    pub(crate) fn name_printed(&self, text: &str) -> Option<&str> {
+        let key = symbol_key(text).ok()?;
+        self.entry(&key.glyphs, &key.arguments)?.name()
     }
 
     /// Whether a name is declared.

@@ -5,11 +5,11 @@ use std::fmt::Write as _;
 
 use model_core::expr::Expr;
 use model_core::{Chain, ObservableId};
-use toml::Value;
 
 use super::guess::Guess;
 use super::macros::Macros;
 use super::source::{Equation, Kind, equations};
+use super::written::{key, on_one_line, quoted, said, without_condition};
 use super::{guess, prose};
 use crate::checker::{Checker, Claim, Equality, Verdict, extended};
 use crate::latex::{self, PrintedSymbols};
@@ -158,6 +158,14 @@ impl Drawn<'_> {
             }
             return;
         }
+        // Lines of which one is a chain of equalities are read one by one.
+        let lines = latex::lines_of(&equation.text);
+        if lines.len() > 1 && lines.iter().any(|line| latex::equalities_of(line).len() > 1) {
+            for text in lines {
+                self.equation(checker, &Equation { text, ..equation.clone() });
+            }
+            return;
+        }
         // `A = B = C`, and a condition behind a wide space.
         let sides = latex::equalities_of(&equation.text);
         if sides.len() > 1 || sides.iter().any(|side| *side != equation.text) {
@@ -198,6 +206,11 @@ impl Drawn<'_> {
                 continue;
             }
             match self.definition(equation, row) {
+                // A name that says a component is more than an abbreviation.
+                Ok(()) if equation.is_display && latex::named_component(row).is_some() => {
+                    read = true;
+                    reason = reason.or(Some(USED.to_owned()));
+                }
                 Ok(()) => read = true,
                 Err(why) => {
                     if let Some((name, _)) = latex::definition_of(row) {
@@ -258,17 +271,25 @@ impl Drawn<'_> {
         if !equation.is_display || latex::definition_of(text).is_some() {
             return None;
         }
-        let claimed = Equality::read(self.chain, &self.symbols, sides).ok()?;
-        let Ok(Verdict::Equality(verdict)) =
-            Checker::new(self.chain).check(&Claim::Equality(Box::new(claimed)))
-        else {
-            return None;
+        let claimed = match Equality::read(self.chain, &self.symbols, sides) {
+            Ok(one) => vec![one],
+            Err(_) => {
+                let entries = Equality::read_entries(self.chain, &self.symbols, sides)?.ok()?;
+                entries.into_iter().map(|(_, equality)| equality).collect()
+            }
         };
-        let holds = verdict.difference.is_zero();
-        if holds {
-            self.claim(equation, text, &Guess::identity());
+        let turned = claimed.iter().any(Equality::is_turned);
+        let mut checker = Checker::new(self.chain);
+        for equality in claimed {
+            let Ok(Verdict::Equality(verdict)) = checker.check(&Claim::Equality(Box::new(equality))) else {
+                return None;
+            };
+            if !verdict.difference.is_zero() {
+                return Some(false);
+            }
         }
-        Some(holds)
+        self.claim(equation, text, &Guess::identity(turned));
+        Some(true)
     }
 
     fn whole(&mut self, checker: &mut Checker<'_>, equation: &Equation, text: &str) -> bool {
@@ -362,43 +383,8 @@ impl Drawn<'_> {
 /// Times that equations are read again for the sake of what a later one defines.
 const ROUNDS: usize = 3;
 
+/// What is said of an equation that is no statement about the chain, and names a component.
+const USED: &str = "agrees with no statement about the chain, and is only used where its name stands";
+
 /// What is said of an equation of two known formulas that are not one.
 const OPEN: &str = "its sides differ. Where they should agree at every pose, claim it by `equal`";
-
-/// A mistake and what to write instead.
-fn said(mistake: latex::Unreadable) -> String {
-    mistake.help.map_or(mistake.message.clone(), |help| format!("{}; {help}", mistake.message))
-}
-
-fn on_one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-/// An equation without what stands behind its last wide space: `\qquad k = 1, 2`.
-fn without_condition(text: &str) -> Option<String> {
-    let at = text.rfind("\\qquad").or_else(|| text.rfind("\\quad"))?;
-    let end = text[at..].find("\\end{").map_or(text.len(), |end| at + end);
-    let is_condition = text[..at].contains('=') && !text[at..end].contains("\\\\");
-    is_condition.then(|| format!("{}{}", &text[..at], &text[end..]))
-}
-
-/// A text as a key of TOML, which takes one line.
-fn key(text: &str) -> String {
-    if !text.contains(|c: char| c == '\'' || c.is_control()) {
-        return format!("'{text}'");
-    }
-    let escaped = text.chars().map(|letter| match letter {
-        '"' | '\\' => format!("\\{letter}"),
-        letter if letter.is_control() => format!("\\u{:04X}", u32::from(letter)),
-        letter => letter.to_string(),
-    });
-    format!("\"{}\"", escaped.collect::<String>())
-}
-
-/// A text as a string of TOML.
-fn quoted(text: &str) -> String {
-    if text.contains("'''") || text.ends_with('\'') {
-        return Value::String(text.to_owned()).to_string();
-    }
-    if text.contains(['\\', '\n', '"', '\'']) { format!("'''{text}'''") } else { format!("\"{text}\"") }
-}

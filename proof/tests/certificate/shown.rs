@@ -52,7 +52,7 @@ fn what_is_shown_with_errors_and_how_a_body_stands_are_proved_or_refuted() {
         let labels = (0..matrix.entries.len()).map(|at| at.to_string()).collect();
         let printed = Entries::read(&extended, matrix, Order::UpTo(1)).expect("entries");
         let kept = errors_named(&extended, "*").expect("errors");
-        Claim::Entries(Box::new(Entries { of, order: Order::UpTo(1), kept, labels, printed }))
+        Claim::Entries(Box::new(Entries { of, order: Order::UpTo(1), kept, only: None, labels, printed }))
     };
     let shown = EntriesOf::Shown(observable(&own, "tip"));
     let body = BodyId(0);

@@ -35,6 +35,10 @@ impl Lexer<'_> {
                 self.note(start, name)?;
                 self.push(Kind::Wide, start);
             }
+            "boxed" => self.framed(),
+            "stackrel" | "overset" | "underset" if self.remark_on_relation() => {
+                self.push(Kind::Mark('='), start);
+            }
             "phantom" | "hphantom" | "vphantom" | "color" => self.note(start, &name)?,
             name if TYPEFACES.contains(&name) => self.typeface(start, BOLD.contains(&name)),
             name if RELATIONS.contains(&name) => self.push(Kind::Mark('='), start),
@@ -52,6 +56,33 @@ impl Lexer<'_> {
             _ => self.push(Kind::Command(other_word(&name).map_or(name, str::to_owned)), start),
         }
         Ok(())
+    }
+
+    /// `\boxed{a = b}`: the braces of a group that only a frame is drawn around.
+    fn framed(&mut self) {
+        self.skip_while(char::is_whitespace);
+        if let Some(close) = closing(self.text, self.at).filter(|_| self.peek() == Some('{')) {
+            self.closers.push(close);
+            self.at += 1;
+        }
+    }
+
+    /// `\stackrel{\mathrm{def}}{=}`: a relation with a remark over it; passed over if it is one.
+    fn remark_on_relation(&mut self) -> bool {
+        let start = self.at;
+        for part in [false, true] {
+            self.skip_while(char::is_whitespace);
+            let Some(close) = closing(self.text, self.at).filter(|_| self.peek() == Some('{')) else { break };
+            let inside = self.text[self.at + 1..close].trim();
+            let is_relation = inside == "="
+                || inside.strip_prefix('\\').is_some_and(|command| RELATIONS.contains(&command));
+            self.at = close + 1;
+            if part && is_relation {
+                return true;
+            }
+        }
+        self.at = start;
+        false
     }
 
     /// The argument of a command that is dropped with it.

@@ -95,6 +95,16 @@ pub fn equalities_of(text: &str) -> Vec<String> {
     }
 }
 
+/// `J = \partial p/\partial q = B` with the derivative for its name, `\partial p/\partial q = B`; nothing where no side is one.
+#[must_use]
+pub fn derivatives_of(text: &str) -> Vec<String> {
+    let sides = if lines_of(text).len() > 1 { Vec::new() } else { sides_of(text, |_| true) };
+    let (names, formulas): (Vec<_>, Vec<_>) =
+        sides.iter().skip(1).map(|side| &text[side.clone()]).partition(|side| is_derivative(side));
+    let [name] = names.as_slice() else { return Vec::new() };
+    formulas.iter().map(|side| format!("{name} = {side}")).collect()
+}
+
 /// Whether a text is the name of a derivative, `\partial p/\partial q`, which says what another name means.
 #[must_use]
 pub fn is_derivative(text: &str) -> bool {

@@ -44,8 +44,8 @@ use model_core::mistake::Mistake;
 use parser::{Matrix, Parser, Value};
 
 pub use collect::{
-    Derivative, definition_of, derivative_of, equal_sides, equalities_of, equations_beside, is_derivative,
-    lines_of, named_component, rows_of, shown_axis, symbols_in,
+    Derivative, definition_of, derivative_of, derivatives_of, equal_sides, equalities_of, equations_beside,
+    is_derivative, lines_of, named_component, rows_of, shown_axis, symbols_in,
 };
 pub use mathml::mathml;
 pub use naming::NameOf;

@@ -169,6 +169,13 @@ impl Drawn<'_> {
         // `A = B = C`, and a condition behind a wide space.
         let sides = latex::equalities_of(&equation.text);
         if sides.len() > 1 || sides.iter().any(|side| *side != equation.text) {
+            let derivatives = latex::derivatives_of(&equation.text);
+            if !derivatives.is_empty() && derivatives.iter().all(|text| self.whole(checker, equation, text)) {
+                for side in &sides {
+                    let _ = self.definition(equation, side);
+                }
+                return;
+            }
             let mut failed = Vec::new();
             for side in &sides {
                 if !self.whole(checker, equation, side)

@@ -208,13 +208,17 @@ fn one_component_of_what_is_shown_and_of_a_jacobian() {
     );
     holds_until(
         ARM,
-        &claim("observable = \"tip\"\ncomponent = \"x\"\nby = [\"q2\"]\njacobian = '\\partial x/\\partial q_2 = -l_2 \\sin(q_1 + q_2)'"),
+        &claim(
+            "observable = \"tip\"\ncomponent = \"x\"\nby = [\"q2\"]\njacobian = '\\partial x/\\partial q_2 = -l_2 \\sin(q_1 + q_2)'",
+        ),
         "-l_2",
         "l_2",
     );
     holds_until(
         ARM,
-        &claim("observable = \"turned\"\ncomponent = \"rotation_z\"\nby = [\"q1\", \"q2\"]\njacobian = '\\begin{bmatrix} 1 & 1 \\end{bmatrix}'"),
+        &claim(
+            "observable = \"turned\"\ncomponent = \"rotation_z\"\nby = [\"q1\", \"q2\"]\njacobian = '\\begin{bmatrix} 1 & 1 \\end{bmatrix}'",
+        ),
         "1 & 1",
         "1 & 0",
     );

@@ -111,11 +111,14 @@ Definition zenith_distance_error (s : signed) (f : R -> vec) (v : R) : Prop :=
 Definition range_error (f : R -> vec) (v : R) : Prop :=
   derivable_pt_lim (fun t => sqrt (square (f t))) 0 v.
 
-(* Values at numbers: v is the printed vector as far as this is rounded, component by component. *)
 (* What one vector has more than another. *)
 Definition less (p q : vec) : vec := V (x p - x q) (y p - y q) (z p - z q).
+(* Values at numbers: v is the printed vector as far as this is rounded, component by component. *)
 Definition rounded_to (v printed within : vec) : Prop :=
   Rabs (x v - x printed) <= x within /\ Rabs (y v - y printed) <= y within /\ Rabs (z v - z printed) <= z within.
+
+(* v is what f shows up to order n, not only its error: less what the instrument shows as designed, it is the error. *)
+Definition shown_to_order (n : nat) (f : R -> vec) (v : vec) : Prop := error_to_order n f (less v (f 0)).
 
 (* ---------------------------------------------------------------------------------------------------------------- *)
 (* 3. Rules of derivatives *)
@@ -361,6 +364,20 @@ Proof.
   rewrite (unique_derivatives lx _ mx (eq_trans Lx (eq_sym Mx)) Fx Gx).
   rewrite (unique_derivatives ly _ my (eq_trans Ly (eq_sym My)) Fy Gy).
   rewrite (unique_derivatives lz _ mz (eq_trans Lz (eq_sym Mz)) Fz Gz). reflexivity.
+Qed.
+
+(* The same of what is shown. *)
+Lemma shown_reached n f a b d lx ly lz v :
+  along f (a :: lx) (b :: ly) (d :: lz) -> length (a :: lx) = S n -> length (b :: ly) = S n -> length (d :: lz) = S n ->
+  a + taylor (a :: lx) = x v -> b + taylor (b :: ly) = y v -> d + taylor (d :: lz) = z v -> shown_to_order n f v.
+Proof.
+  intros A Lx Ly Lz Tx Ty Tz. assert (B := A). destruct B as ((Ex & _) & (Ey & _) & (Ez & _)).
+  apply (reached n f _ _ _ _ A Lx Ly Lz); unfold less; cbn [x y z]; lra.
+Qed.
+Theorem one_shown n f v w : shown_to_order n f v -> shown_to_order n f w -> v = w.
+Proof.
+  intros A B. assert (E := one_error _ _ _ _ A B). destruct v, w. unfold less in E. cbn in E.
+  injection E. intros. f_equal; lra.
 Qed.
 
 (* The error up to first order is the derivative. *)

@@ -1,6 +1,6 @@
 //! What is claimed of a chain, with the verdict: which statement that is, or why there is none.
 
-use claims::checker::entries::{Entries, EntriesOf};
+use claims::checker::entries::{Entries, EntriesOf, EntriesVerdict};
 use claims::checker::{CheckError, Checker, Claim, Order, Rank, RankSaid, Verdict, extended, only_of};
 use model_core::identify::{Holds, identify};
 use model_core::symbol::{SymbolId, SymbolKind};
@@ -8,14 +8,17 @@ use model_core::symbol::{SymbolId, SymbolKind};
 use super::{Certificate, Declared, Refusal};
 
 impl Declared {
-    /// The same declaration, ready for these claims: with a small change of each joint that a Jacobian is by.
+    /// The same declaration, ready for these claims: with a small change of each joint that a Jacobian is by, and the axes and the
+    /// origin of each body whose matrix is claimed.
     #[must_use]
-    pub fn with_changes_of<'c>(self, claims: impl Iterator<Item = &'c Claim>) -> Self {
+    pub fn with_changes_of<'c>(mut self, claims: impl Iterator<Item = &'c Claim>) -> Self {
         let mut varied: Vec<SymbolId> = Vec::new();
         for claim in claims {
             let Claim::Entries(entries) = claim else { continue };
-            if let EntriesOf::Jacobian { by, .. } = &entries.of {
-                varied.extend(by);
+            match &entries.of {
+                EntriesOf::Jacobian { by, .. } => varied.extend(by),
+                EntriesOf::Frame { body, frame, .. } => self.add_columns(*body, *frame),
+                EntriesOf::Shown(_) | EntriesOf::Image(_) => {}
             }
         }
         self.with_changes(&varied)
@@ -31,7 +34,7 @@ impl Certificate<'_> {
         match (claim, verdict) {
             (Claim::ClosedForm(form), Verdict::ClosedForm(found)) => self.closed_form(title, form, found),
             (Claim::Equality(equality), Verdict::Equality(found)) => self.equality(title, equality, found),
-            (Claim::Entries(entries), _) => self.entries(title, entries, verdict.holds()),
+            (Claim::Entries(entries), Verdict::Entries(found)) => self.entries(title, entries, found),
             (Claim::Values(values), _) => self.values(title, values, verdict.holds()),
             (Claim::Rank(rank), _) if verdict.holds() => self.rank(rank),
             (Claim::Rank(_), _) => Err(Refusal::RankDiffers),
@@ -39,22 +42,26 @@ impl Certificate<'_> {
             (Claim::Bound(_), _) => Err(Refusal::Bound),
             (Claim::Total(_), _) => Err(Refusal::Total),
             (Claim::Count(_), _) => Err(Refusal::Count),
-            (Claim::ClosedForm(_) | Claim::Equality(_), _) => {
+            (Claim::ClosedForm(_) | Claim::Equality(_) | Claim::Entries(_), _) => {
                 unreachable!("a formula has a verdict of its own kind")
             }
         }
     }
 
-    /// What is shown without errors, or a Jacobian.
-    fn entries(&mut self, title: &str, entries: &Entries, holds: bool) -> Result<(), Refusal> {
+    /// What is shown, how a body stands, or a Jacobian.
+    fn entries(&mut self, title: &str, entries: &Entries, found: &EntriesVerdict) -> Result<(), Refusal> {
+        if entries.only.is_some() {
+            return Err(Refusal::OneNumber);
+        }
         match (&entries.of, entries.order) {
-            (EntriesOf::Shown(observable), Order::UpTo(0)) => {
-                self.shown(title, *observable, &entries.printed, holds)
-            }
-            (EntriesOf::Shown(_), _) => Err(Refusal::ShownWithErrors),
-            (EntriesOf::Frame { .. }, _) => Err(Refusal::Frame),
             (EntriesOf::Image(_), _) => Err(Refusal::Image { reading: "pixels".to_owned() }),
             (EntriesOf::Jacobian { .. }, _) => self.jacobian(title, entries),
+            (_, Order::Exact) => Err(Refusal::Exact),
+            (EntriesOf::Shown(observable), Order::UpTo(order)) => {
+                let question = (*observable, order, entries.kept.as_slice());
+                self.shown(title, question, &entries.printed, found.differences.is_empty())
+            }
+            (EntriesOf::Frame { .. }, Order::UpTo(order)) => self.frame(title, order, entries, found),
         }
     }
 

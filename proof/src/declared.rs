@@ -1,7 +1,8 @@
 //! A declaration as written and what it means, side by side: a certificate states amounts as the user wrote them.
 
 use model_core::algebra::{Poly, Rational};
-use model_core::chain::{Axis, BodyId, Chain, ObservableId, Role, TransformKind};
+use model_core::chain::reading::COMPONENTS;
+use model_core::chain::{Axis, BodyId, Chain, Observable, ObservableId, ObservableKind, Role, TransformKind};
 use model_core::expr::{Expr, Node};
 use model_core::mistake::Mistakes;
 use model_core::ramp::Ramp;
@@ -18,6 +19,8 @@ pub struct Declared {
     constants: Vec<(SymbolId, Poly)>,
     /// Joints, each with the error that stands for its small change.
     changes: Vec<(SymbolId, SymbolId)>,
+    /// Bodies in frames, each with the first of the observables that are its three axes and its origin.
+    columns: Vec<(BodyId, Option<BodyId>, usize)>,
 }
 
 /// A factor as written.
@@ -74,7 +77,7 @@ impl Declared {
                 Some((symbol, value))
             })
             .collect();
-        Ok(Self { chain, bodies, observables, constants, changes: Vec::new() })
+        Ok(Self { chain, bodies, observables, constants, changes: Vec::new(), columns: Vec::new() })
     }
 
     /// The same declaration with a small change behind every motion of some joints: an error `change_of_q` for a joint `q`. What it
@@ -121,6 +124,40 @@ impl Declared {
     #[must_use]
     pub fn change_of(&self, joint: SymbolId) -> Option<SymbolId> {
         self.changes.iter().find(|(own, _)| *own == joint).map(|(_, change)| *change)
+    }
+
+    /// Adds the axes and the origin of a body as observables, seen in a frame.
+    pub(super) fn add_columns(&mut self, body: BodyId, frame: Option<BodyId>) {
+        let first = self.chain.observables.len();
+        if self.columns_of(body, frame).is_some() || u16::try_from(first + 4).is_err() {
+            return;
+        }
+        self.columns.push((body, frame, first));
+        let stands = &self.chain.body(body).name;
+        let names = ["x axis", "y axis", "z axis", "origin"].map(|what| format!("the {what} of {stands}"));
+        for (at, name) in names.into_iter().enumerate() {
+            let entries = [0, 1, 2].map(|axis| Rational::from(i64::from(axis == at)));
+            let number = |value: &Rational| Expr { node: Node::Number(value.clone()), place: () };
+            self.observables.push(entries.each_ref().map(number));
+            self.chain.observables.push(Observable {
+                name,
+                documentation: String::new(),
+                kind: if at == 3 { ObservableKind::Point } else { ObservableKind::Direction },
+                components: entries.map(Poly::constant),
+                body,
+                frame,
+                shown: COMPONENTS.to_vec(),
+                image: None,
+                bend: None,
+            });
+        }
+    }
+
+    /// The three axes and the origin of a body as it is seen in a frame.
+    pub(super) fn columns_of(&self, body: BodyId, frame: Option<BodyId>) -> Option<[ObservableId; 4]> {
+        let found = self.columns.iter().find(|(own, seen, _)| (*own, *seen) == (body, frame));
+        let first = u16::try_from(found?.2).ok()?;
+        Some([0, 1, 2, 3].map(|at| ObservableId(first + at)))
     }
 
     /// What the declaration means.

@@ -17,7 +17,7 @@ pub enum Refusal {
     Algebra(#[from] AlgebraError),
     /// A sine or cosine of a high multiple of an angle.
     #[error(
-        "the sine or cosine of {multiple} times an angle; certificates go up to {} times",
+        "a formula contains the sine or cosine of {multiple} times an angle. Certificates go up to {} times",
         expanded::HARMONIC_LIMIT
     )]
     Harmonic {
@@ -26,8 +26,8 @@ pub enum Refusal {
     },
     /// More than Coq calculates with in reasonable time.
     #[error(
-        "a vector of {terms} terms on the way through the chain; certificates go up to {limit}, with which Coq is busy for minutes. \
-         A claim that keeps few errors has fewer"
+        "a vector of {terms} terms stands on the way through the chain. Certificates go up to {limit}, with which Coq is busy for \
+         minutes. A claim that keeps few errors has fewer terms"
     )]
     TooLarge {
         /// How many terms there are.
@@ -48,7 +48,7 @@ pub enum Refusal {
     #[error("no poses with rational values were found at which the errors show themselves as independent")]
     NoMinor,
     /// Too many unknowns for the linear arithmetic of Coq.
-    #[error("{unknowns} errors together; certificates solve for up to {limit}")]
+    #[error("the statement is about {unknowns} errors together. Certificates solve for up to {limit}")]
     ManyUnknowns {
         /// How many there are.
         unknowns: usize,
@@ -57,7 +57,7 @@ pub enum Refusal {
     },
     /// A difference that only values of a ramp would show.
     #[error(
-        "printed and derived differ in what stands beside a ramp; certificates do not put numbers into ramps"
+        "printed and derived differ in what stands beside a ramp. Certificates do not put numbers into ramps"
     )]
     Ramp,
     /// A line of sight that is bent, or an error that follows its angle from up.
@@ -76,7 +76,7 @@ pub enum Refusal {
     Claim,
     /// An image point.
     #[error(
-        "certificates do not know image points yet, as the {reading} of a camera; certify the point in the frame of the camera"
+        "certificates do not know image points yet, as the {reading} of a camera. Claim the point in the frame of the camera"
     )]
     Image {
         /// The reading in words.
@@ -84,14 +84,16 @@ pub enum Refusal {
     },
     /// How a body is turned.
     #[error(
-        "{reading} of an orientation; certificates speak of vectors: claim the directions of its three axes"
+        "certificates speak of vectors, and not of the {reading} of an orientation. Claim the directions of its three axes"
     )]
     Orientation {
         /// The reading in words.
         reading: String,
     },
     /// An angle or a length beyond first order.
-    #[error("the {reading} to order {order}; certificates state angles and lengths to first order")]
+    #[error(
+        "the claim is of the {reading} to order {order}. Certificates state angles and lengths to first order"
+    )]
     ReadingToOrder {
         /// The reading in words.
         reading: String,
@@ -119,27 +121,32 @@ pub enum Refusal {
     #[error("a count is of names in the declaration, and no formula")]
     Count,
     /// The length of the error.
-    #[error("a total error is a root; claim the components, which have certificates")]
+    #[error("a total error is a root. Claim the components, which have certificates")]
     Total,
     /// A rank that is not what the print says.
-    #[error("a rank that differs has no theorem; claim the rank that was found")]
+    #[error("a rank that differs has no theorem. Claim the rank that was found")]
     RankDiffers,
     /// What is known at the declared values of the constants only.
     #[error("the answer is at the declared values of the constants, and a theorem would be of all values")]
     DeclaredValues,
-    /// How a body stands.
+    /// A matrix of four rows of which the last is another one.
     #[error(
-        "certificates speak of vectors, not of matrices; claim each column by `shows`, as a direction of the body"
+        "the last row of the printed matrix is not 0 0 0 1. Claim the other rows as a matrix of three columns"
     )]
-    Frame,
-    /// What is shown, the errors included.
-    #[error("certificates speak of what is shown without errors; claim what the errors add by `components`")]
-    ShownWithErrors,
+    LastRow,
+    /// One number of a vector.
+    #[error("certificates speak of whole vectors, and not of one of their numbers. Claim all of them")]
+    OneNumber,
+    /// The exact form.
+    #[error("certificates speak of forms to an order, and not of the exact form. Claim it to first order")]
+    Exact,
     /// A Jacobian of something else.
     #[error("certificates speak of Jacobians of points and directions, by errors and joints")]
     Jacobian,
     /// Numbers of something else than a vector.
-    #[error("values of the {reading}; certificates speak of the numbers x, y and z of a point or direction")]
+    #[error(
+        "the values are of the {reading}. Certificates speak of the numbers x, y and z of a point or direction"
+    )]
     ValueOf {
         /// The reading in words.
         reading: String,
@@ -153,6 +160,6 @@ pub enum Refusal {
         what: String,
     },
     /// A ramp at numbers.
-    #[error("the value has a ramp on its way; certificates do not put numbers into ramps")]
+    #[error("the value has a ramp on its way. Certificates do not put numbers into ramps")]
     RampValue,
 }

@@ -28,7 +28,7 @@ impl Entries {
         chain: &Chain,
         standing: impl Fn(SymbolId) -> Option<SymbolId>,
     ) -> Option<Vec<Column>> {
-        let EntriesOf::Jacobian { observables, by } = &self.of else { return None };
+        let (EntriesOf::Jacobian { observables, by }, None) = (&self.of, self.only) else { return None };
         let mut columns = Vec::with_capacity(observables.len() * by.len());
         for (block, &observable) in observables.iter().enumerate() {
             let shown = chain.observable(observable);

@@ -21,6 +21,8 @@ pub struct Entries {
     pub order: Order,
     /// The errors that are not zero, in order.
     pub kept: Vec<SymbolId>,
+    /// The one number of what is shown that is claimed, or the one row of a Jacobian; `None` where all are.
+    pub only: Option<Axis>,
     /// What each entry is called.
     pub labels: Vec<String>,
     /// The formulas as printed, each as the first component.
@@ -120,10 +122,16 @@ impl Checker<'_> {
     /// # Errors
     /// The chain has no closed form of them, or it has too many terms.
     pub fn entries(&self, claim: &Entries) -> Result<EntriesVerdict, CheckError> {
-        let derived = self.entries_of(claim)?;
+        let width = if let EntriesOf::Jacobian { by, .. } = &claim.of { by.len() } else { 1 };
+        let derived = self.entries_of(claim)?.into_iter();
+        let (skipped, taken) = match claim.only {
+            Some(axis) => (axis.index() * width, width),
+            None => (0, derived.len()),
+        };
         let chain = self.chain;
         let mut differences = Vec::new();
-        for ((label, printed), derived) in claim.labels.iter().zip(&claim.printed).zip(derived) {
+        let claimed = claim.labels.iter().zip(&claim.printed);
+        for ((label, printed), derived) in claimed.zip(derived.skip(skipped).take(taken)) {
             let derived = self.without_neglected(&derived, &claim.kept)?;
             let above = printed.translate(chain, &derived.above)?;
             let below = printed.translate(chain, &derived.below)?;

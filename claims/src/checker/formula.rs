@@ -7,9 +7,9 @@ use super::lowering::{self, Sines};
 use super::order::Order;
 use super::series;
 use super::written::{Read, TextPlace, Written, component, expressions, in_text};
-use crate::latex::{Notes, PrintedSymbols};
+use crate::latex::{self, NameOf, Notes, PrintedSymbols};
 use model_core::algebra::{AlgebraError, Fraction, Poly, Rational};
-use model_core::chain::reading::Reading;
+use model_core::chain::reading::{Measures, Reading};
 use model_core::chain::{Axis, Chain, Observable};
 use model_core::expr::{Expr, Node};
 use model_core::mistake::Mistake;
@@ -32,6 +32,8 @@ pub struct PrintedVector {
     pub truncated: bool,
     /// Whether rotations about named axes were read as the table of symbols says.
     pub turned: bool,
+    /// Whether two roots are compared by what stands below them.
+    pub(super) of_squares: bool,
 }
 
 /// One component of a printed formula.
@@ -49,11 +51,12 @@ impl PrintedVector {
     /// Whether everything is in the names of the chain alone, without quotients, and nothing was dropped.
     #[must_use]
     pub fn is_plain(&self) -> bool {
-        let Self { components, halves, has_roots, truncated, turned } = self;
+        let Self { components, halves, has_roots, truncated, turned, of_squares } = self;
         halves.is_empty()
             && !has_roots
             && !truncated
             && !turned
+            && !of_squares
             && components.iter().all(|component| component.value.is_whole())
     }
 
@@ -70,8 +73,8 @@ impl PrintedVector {
         texts: &[&str],
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
         let symbols = symbols.reading(texts);
-        let axes = [Some(0), Some(1), Some(2)];
-        Self::read_with(chain, expressions(&symbols, &axes, texts)?, &axes, texts, Order::UpTo(1))
+        let names = [0, 1, 2].map(NameOf::Component);
+        Self::read_with(chain, expressions(&symbols, &names, texts)?, &names, texts, Order::UpTo(1))
     }
 
     /// The same for what an observable shows: as many formulas as it shows numbers. In an exact form sines and cosines of
@@ -87,13 +90,12 @@ impl PrintedVector {
         order: Order,
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
         let symbols = symbols.reading(texts);
-        let axes: Vec<Option<usize>> =
-            observable.shown.iter().map(|reading| reading.component().map(Axis::index)).collect();
-        let mut written = expressions(&symbols, &axes, texts)?;
+        let names: Vec<NameOf> = observable.shown.iter().map(name_of).collect();
+        let mut written = expressions(&symbols, &names, texts)?;
         if observable.is_orientation() && order == Order::UpTo(1) {
             written.components = of_quaternion(written.components);
         }
-        Self::read_with(chain, written, &axes, texts, order)
+        Self::read_with(chain, written, &names, texts, order)
     }
 
     /// Reads the formula of one of the numbers that an observable shows; the others are not claimed.
@@ -109,8 +111,8 @@ impl PrintedVector {
         order: Order,
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
         let symbols = symbols.reading(&[text]);
-        let axis = observable.shown.get(place.index()).and_then(Reading::component);
-        let written = component(&symbols, 0, text, axis.map(Axis::index))?;
+        let name_of = observable.shown.get(place.index()).map_or(NameOf::Formula, name_of);
+        let written = component(&symbols, 0, text, name_of)?;
         let (_, expression) = &written.components[0];
         let value =
             valued(chain, expression, written.notes, order).map_err(|mistake| vec![in_text(0, mistake)])?;
@@ -120,16 +122,16 @@ impl PrintedVector {
         Ok(read.noting(written.notes))
     }
 
-    /// The formulas of texts, each in a text of its own, or all in one; `axes` are the components that they may be named as.
+    /// The formulas of texts, each in a text of its own, or all in one; `names` is what each may be the name of.
     ///
     /// # Errors
     /// What cannot be read, with its place.
     pub fn texts(
         symbols: &PrintedSymbols,
-        axes: &[Option<usize>],
+        names: &[NameOf],
         texts: &[&str],
     ) -> Result<(Vec<Printed>, Notes), Vec<Mistake<TextPlace>>> {
-        let read = expressions(symbols, axes, texts)?;
+        let read = expressions(symbols, names, texts)?;
         Ok((read.components.into_iter().map(|(_, expression)| expression).collect(), read.notes))
     }
 
@@ -143,8 +145,18 @@ impl PrintedVector {
         let mut notes = Notes::default();
         let mut components = Vec::with_capacity(3);
         let mut mistakes = Vec::new();
-        for (index, text) in texts.into_iter().enumerate() {
-            let read = component(&symbols, index, text, None).and_then(|written| {
+        // Roots are equal where what stands below them is.
+        let below = texts.map(|text| latex::read_total(text, &symbols));
+        let are_roots = below.iter().all(Result::is_ok)
+            && texts.iter().any(|text| component(&symbols, 0, text, NameOf::Formula).is_err());
+        for ((index, text), below) in texts.into_iter().enumerate().zip(below) {
+            let read = match below {
+                Ok(below) if are_roots => {
+                    Ok(Read { components: vec![(index, below)], notes: Notes::default() })
+                }
+                _ => component(&symbols, index, text, NameOf::Formula),
+            };
+            let read = read.and_then(|written| {
                 notes.join(&written.notes);
                 let one = written.components.into_iter().next();
                 let (text_index, expression) = one.unwrap_or_else(|| unreachable!("one formula was read"));
@@ -161,11 +173,21 @@ impl PrintedVector {
         let Ok([first, second]) = <[PrintedComponent; 2]>::try_from(components) else {
             return Err(mistakes);
         };
-        let whole = 0..texts[0].len();
+        Self::of_pair(chain, [first, second], are_roots, notes)
+    }
+
+    /// Two formulas as x and y.
+    pub(super) fn of_pair(
+        chain: &Chain,
+        [first, second]: [PrintedComponent; 2],
+        of_squares: bool,
+        notes: Notes,
+    ) -> Result<Self, Vec<Mistake<TextPlace>>> {
+        let whole = first.expression.place.clone();
         let zero = Expr { node: Node::Number(Rational::ZERO), place: whole.clone() };
         let nothing =
             PrintedComponent { text_index: 0, expression: zero, value: Fraction::whole(Poly::zero()) };
-        Self::of_components([first, second, nothing])
+        Self { of_squares, ..Self::of_components([first, second, nothing]) }
             .noting(notes)
             .normalised(chain)
             .map_err(|error| vec![in_text(0, Mistake::new(whole, error.to_string()))])
@@ -174,7 +196,7 @@ impl PrintedVector {
     fn read_with(
         chain: &Chain,
         Read { components: expressions, notes }: Read,
-        axes: &[Option<usize>],
+        names: &[NameOf],
         texts: &[&str],
         order: Order,
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
@@ -192,9 +214,9 @@ impl PrintedVector {
         if !mistakes.is_empty() {
             return Err(mistakes);
         }
-        let has_fourth = count == 4 && axes.len() == 3;
-        if count != axes.len() && !has_fourth {
-            let (wanted, help) = match axes.len() {
+        let has_fourth = count == 4 && names.len() == 3;
+        if count != names.len() && !has_fourth {
+            let (wanted, help) = match names.len() {
                 3 => (
                     "a vector has three".to_owned(),
                     "give x, y and z, and if you like the homogeneous 0 behind them",
@@ -231,7 +253,14 @@ impl PrintedVector {
     }
 
     fn of_components(components: [PrintedComponent; 3]) -> Self {
-        Self { components, halves: Vec::new(), has_roots: false, truncated: false, turned: false }
+        Self {
+            components,
+            halves: Vec::new(),
+            has_roots: false,
+            truncated: false,
+            turned: false,
+            of_squares: false,
+        }
     }
 
     pub(super) fn noting(self, notes: Notes) -> Self {
@@ -300,6 +329,15 @@ impl PrintedVector {
         } else {
             derived
         })
+    }
+}
+
+/// What the name of a shown number is the name of.
+fn name_of(shown: &Reading) -> NameOf {
+    match shown.measures {
+        Measures::Component(axis) => NameOf::Component(axis.index()),
+        Measures::CrossElevation { .. } => NameOf::Sideways,
+        _ => NameOf::Formula,
     }
 }
 

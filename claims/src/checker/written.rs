@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::latex::program as code;
-use crate::latex::{self, Notes, PrintedSymbols};
+use crate::latex::{self, NameOf, Notes, PrintedSymbols};
 use model_core::expr::Expr;
 use model_core::mistake::Mistake;
 use model_core::syntax;
@@ -30,15 +30,15 @@ pub(super) struct Read {
 /// The components as written.
 pub(super) fn expressions(
     symbols: &PrintedSymbols,
-    axes: &[Option<usize>],
+    names: &[NameOf],
     texts: &[&str],
 ) -> Result<Read, Vec<Mistake<TextPlace>>> {
-    if let ([text], [_, _, ..]) = (texts, axes) {
-        let as_latex = || latex::read_vector(text, symbols, axes);
+    if let ([text], [_, _, ..]) = (texts, names) {
+        let as_latex = || latex::read_vector(text, symbols, names);
         let is_program = !is_latex(text)
             && (code::is_line_of_program(text) || words(text).all(|word| symbols.declares(word)));
         let read = if is_program {
-            code::read_vector(text, symbols, axes).or_else(|mistake| as_latex().map_err(|_| mistake))
+            code::read_vector(text, symbols, names).or_else(|mistake| as_latex().map_err(|_| mistake))
         } else {
             as_latex()
         };
@@ -50,7 +50,7 @@ pub(super) fn expressions(
     let mut mistakes = Vec::new();
     for (index, text) in texts.iter().enumerate() {
         // A fourth component stands behind z.
-        match component(symbols, index, text, axes.get(index).copied().unwrap_or(Some(index))) {
+        match component(symbols, index, text, names.get(index).copied().unwrap_or(NameOf::Component(index))) {
             Ok(one) => {
                 read.components.extend(one.components);
                 read.notes.join(&one.notes);
@@ -66,15 +66,15 @@ pub(super) fn component(
     symbols: &PrintedSymbols,
     text_index: usize,
     text: &str,
-    axis: Option<usize>,
+    name_of: NameOf,
 ) -> Result<Read, Vec<Mistake<TextPlace>>> {
-    let as_latex = || latex::read_component(text, symbols, axis);
+    let as_latex = || latex::read_component(text, symbols, name_of);
     let one = |(expression, notes)| Read { components: vec![(text_index, expression)], notes };
     if is_latex(text) {
         return as_latex().map(one).map_err(|mistake| vec![in_text(text_index, mistake)]);
     }
     if code::is_line_of_program(text) {
-        let read = code::read_component(text, symbols, axis);
+        let read = code::read_component(text, symbols, name_of);
         return read.map(one).map_err(|mistake| vec![in_text(text_index, mistake)]);
     }
     let (name_length, amount) = bare(text);

@@ -2,9 +2,11 @@
 
 use std::ops::Range;
 
+use super::commands::TYPEFACES;
 use super::glyph::{self, Glyph};
 use super::layout;
 use super::left;
+use super::naming;
 use super::token::{Kind, Token};
 
 /// Every symbol of a formula in one normal form, in the order in which they stand; Δ, δ and d belong to the letter behind them.
@@ -72,17 +74,78 @@ pub fn rows_of(text: &str) -> Vec<String> {
     if found.is_empty() { whole() } else { found }
 }
 
-/// `A = B = C` as `A = B` and `A = C`; an equation with one `=`, or none, as it is.
+/// The lines of a display as texts, each with those that go on; one of these may be a chain of equalities.
+#[must_use]
+pub fn lines_of(text: &str) -> Vec<String> {
+    let lines = left::tokens(text).and_then(|tokens| layout::lines(text, tokens)).unwrap_or_default();
+    let place = |line: &Vec<Token>| Some(line.first()?.place.start..line.last()?.place.end);
+    lines.iter().filter_map(place).map(|place| written(text, place).to_owned()).collect()
+}
+
+/// `A = B = C` as `A = B` and `A = C`, without sides that only say which derivative it is; an equation with one `=`, or none, as it is.
 #[must_use]
 pub fn equalities_of(text: &str) -> Vec<String> {
-    let sides = sides_of(text, |_| true);
+    let sides = if lines_of(text).len() > 1 { Vec::new() } else { sides_of(text, |_| true) };
     match sides.as_slice() {
-        [name, first, rest @ ..] if !rest.is_empty() => {
+        [name, rest @ ..] if rest.len() > 1 => {
             let said = |side: &Range<usize>| format!("{} = {}", &text[name.clone()], &text[side.clone()]);
-            std::iter::once(first).chain(rest).map(said).collect()
+            rest.iter().filter(|side| !is_derivative(&text[(*side).clone()])).map(said).collect()
         }
         _ => vec![text.to_owned()],
     }
+}
+
+/// `J = \partial p/\partial q = B` with the derivative for its name, `\partial p/\partial q = B`; nothing where no side is one.
+#[must_use]
+pub fn derivatives_of(text: &str) -> Vec<String> {
+    let sides = if lines_of(text).len() > 1 { Vec::new() } else { sides_of(text, |_| true) };
+    let (names, formulas): (Vec<_>, Vec<_>) =
+        sides.iter().skip(1).map(|side| &text[side.clone()]).partition(|side| is_derivative(side));
+    let [name] = names.as_slice() else { return Vec::new() };
+    formulas.iter().map(|side| format!("{name} = {side}")).collect()
+}
+
+/// Whether a text is the name of a derivative, `\partial p/\partial q`, which says what another name means.
+#[must_use]
+pub fn is_derivative(text: &str) -> bool {
+    left::tokens(text).is_ok_and(|tokens| naming::is_derivative(&tokens))
+}
+
+/// `\partial x/\partial q = …`: which component is derived, if one is, and the printed symbol that it is derived by.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Derivative {
+    /// 0, 1 or 2 for x, y and z; `None` of a whole vector.
+    pub component: Option<usize>,
+    /// As printed.
+    pub by: String,
+}
+
+/// The derivative that a formula gives.
+#[must_use]
+pub fn derivative_of(text: &str) -> Option<Derivative> {
+    let name = name_of(text)?;
+    let [of, by] = naming::derivative(&name)?;
+    let place = by.first()?.place.start..by.last()?.place.end;
+    Some(Derivative { component: naming::shown_axis(of), by: written(text, place).to_owned() })
+}
+
+/// The component that the name of a formula says, `p_x = …`, where it is no difference.
+#[must_use]
+pub fn shown_axis(text: &str) -> Option<usize> {
+    naming::shown_axis(&name_of(text)?)
+}
+
+/// The component that the name of a formula says, be it a difference or not.
+#[must_use]
+pub fn named_component(text: &str) -> Option<usize> {
+    naming::named_axis(&name_of(text)?)
+}
+
+/// The left-hand side of a formula.
+fn name_of(text: &str) -> Option<Vec<Token>> {
+    let rows = layout::rows(text, left::tokens(text).ok()?, false).ok()?;
+    let [row] = rows.as_slice() else { return None };
+    Some(row.name.clone())
 }
 
 /// Where the sides of one line of equalities stand, `a = b = c`; nothing where the text is of several lines or has no `=`.
@@ -135,6 +198,12 @@ fn written_place(text: &str, place: Range<usize>) -> Range<usize> {
     while count(start, end, '{') > count(start, end, '}') {
         let Some(close) = text[end..].find('}') else { break };
         end += close + 1;
+    }
+    // `\mathbf p`: what says that a letter is bold stands before its token.
+    let before = text[..start].trim_end();
+    let name = before.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+    if name.ends_with('\\') && TYPEFACES.contains(&&before[name.len()..]) {
+        start = name.len() - 1;
     }
     start..end
 }

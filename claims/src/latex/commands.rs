@@ -2,7 +2,7 @@
 //! formula may hold.
 
 /// Control words that only move ink, or that size the bracket behind them.
-pub(super) const WITHOUT_MEANING: [&str; 33] = [
+pub(super) const WITHOUT_MEANING: [&str; 32] = [
     "hline",
     "left",
     "right",
@@ -34,7 +34,6 @@ pub(super) const WITHOUT_MEANING: [&str; 33] = [
     "rm",
     "it",
     "bf",
-    "boxed",
     "allowbreak",
 ];
 
@@ -80,6 +79,16 @@ pub(super) const RELATIONS: [&str; 9] =
 
 /// The functions of the language of amounts, as control words.
 pub(super) const FUNCTIONS: [&str; 6] = ["sin", "cos", "tan", "cot", "sec", "csc"];
+
+/// The function that other countries call by another word: `\operatorname{tg}`.
+pub(super) fn other_word(word: &str) -> Option<&'static str> {
+    Some(match word {
+        "tg" => "tan",
+        "ctg" | "cotg" => "cot",
+        "cosec" => "csc",
+        _ => return None,
+    })
+}
 
 /// The function of three arguments, `\operatorname{ramp}(x, from, to)`.
 pub(super) const RAMP: &str = "ramp";

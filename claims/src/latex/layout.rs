@@ -50,12 +50,8 @@ pub(super) struct Row {
 }
 
 /// Splits a text into its formulas: at ends of rows, and at commas where `list` is set. Rows that go on are joined.
-pub(super) fn rows(text: &str, mut tokens: Vec<Token>, list: bool) -> Result<Vec<Row>, Unreadable> {
-    without_numbers(&mut tokens)?;
-    without_math(text, &mut tokens)?;
-    without_wide_spaces(&mut tokens)?;
-    without_wrapping(&mut tokens);
-    without_punctuation(&mut tokens);
+pub(super) fn rows(text: &str, tokens: Vec<Token>, list: bool) -> Result<Vec<Row>, Unreadable> {
+    let tokens = unwrapped(text, tokens)?;
     let end = tokens.last().map_or(text.len(), |token| token.place.end);
     let mut rows: Vec<Row> = Vec::new();
     for line in split(&tokens, |kind| *kind == Kind::Row) {
@@ -72,12 +68,8 @@ pub(super) fn rows(text: &str, mut tokens: Vec<Token>, list: bool) -> Result<Vec
 }
 
 /// What stands between the signs of equality of a display, whichever lines they begin.
-pub(super) fn sides(text: &str, mut tokens: Vec<Token>) -> Result<Vec<Vec<Token>>, Unreadable> {
-    without_numbers(&mut tokens)?;
-    without_math(text, &mut tokens)?;
-    without_wide_spaces(&mut tokens)?;
-    without_wrapping(&mut tokens);
-    without_punctuation(&mut tokens);
+pub(super) fn sides(text: &str, tokens: Vec<Token>) -> Result<Vec<Vec<Token>>, Unreadable> {
+    let tokens = unwrapped(text, tokens)?;
     let sides = split(&tokens, |kind| *kind == Kind::Mark('='));
     let is_layout = |token: &&Token| matches!(token.kind, Kind::Row | Kind::Mark('&'));
     let trimmed = |side: Vec<Token>| {
@@ -87,7 +79,34 @@ pub(super) fn sides(text: &str, mut tokens: Vec<Token>) -> Result<Vec<Vec<Token>
     Ok(sides.into_iter().map(trimmed).collect())
 }
 
-/// Equations that stand beside one another: parts between wide spaces, or between a comma and a column, that have each a sign of equality.
+/// The lines of a display, with those that go on: with `=`, or with an operator and no `=` of their own.
+pub(super) fn lines(text: &str, tokens: Vec<Token>) -> Result<Vec<Vec<Token>>, Unreadable> {
+    let tokens = unwrapped(text, tokens)?;
+    let mut lines: Vec<Vec<Token>> = Vec::new();
+    for line in split(&tokens, |kind| *kind == Kind::Row) {
+        let equals = |token: &Token| token.kind == Kind::Mark('=');
+        let Some(first) = line.iter().find(|token| token.kind != Kind::Mark('&')) else { continue };
+        let goes_on = equals(first) || (is_operator(first) && !line.iter().any(equals));
+        match lines.last_mut() {
+            Some(last) if goes_on || last.last().is_some_and(is_operator) => last.extend(line),
+            _ => lines.push(line),
+        }
+    }
+    Ok(lines)
+}
+
+/// The tokens without what print sets around all of them.
+fn unwrapped(text: &str, mut tokens: Vec<Token>) -> Result<Vec<Token>, Unreadable> {
+    without_numbers(&mut tokens)?;
+    without_math(text, &mut tokens)?;
+    without_wide_spaces(&mut tokens)?;
+    without_wrapping(&mut tokens);
+    without_punctuation(&mut tokens);
+    Ok(tokens)
+}
+
+/// Equations that stand beside one another: parts between wide spaces, or between a comma and a column, that have each a sign of equality;
+/// otherwise parts between commas that have.
 pub(super) fn beside(text: &str, mut tokens: Vec<Token>) -> Result<Vec<Vec<Token>>, Unreadable> {
     without_numbers(&mut tokens)?;
     without_math(text, &mut tokens)?;
@@ -101,15 +120,21 @@ pub(super) fn beside(text: &str, mut tokens: Vec<Token>) -> Result<Vec<Vec<Token
             tokens[at].kind = Kind::Wide;
         }
     }
-    let mut pieces = split(&tokens, |kind| *kind == Kind::Wide);
-    for piece in &mut pieces {
-        while piece.last().is_some_and(|token| is_comma(&token.kind) || token.kind == Kind::Mark('.')) {
-            piece.pop();
+    let equations = |parts: &dyn Fn(&Kind) -> bool| {
+        let mut pieces = split(&tokens, parts);
+        for piece in &mut pieces {
+            let ends =
+                |token: &Token| is_comma(&token.kind) || matches!(token.kind, Kind::Mark('.') | Kind::Wide);
+            while piece.last().is_some_and(ends) {
+                piece.pop();
+            }
         }
-    }
-    pieces.retain(|piece| !piece.is_empty());
-    let is_equation = |piece: &Vec<Token>| split(piece, |kind| *kind == Kind::Mark('=')).len() > 1;
-    Ok(if pieces.iter().all(is_equation) { pieces } else { Vec::new() })
+        pieces.retain(|piece| !piece.is_empty());
+        let is_equation = |piece: &Vec<Token>| split(piece, |kind| *kind == Kind::Mark('=')).len() > 1;
+        if pieces.iter().all(is_equation) { pieces } else { Vec::new() }
+    };
+    let spaced = equations(&|kind| *kind == Kind::Wide);
+    Ok(if spaced.len() > 1 { spaced } else { equations(&|kind| is_comma(kind) || *kind == Kind::Wide) })
 }
 
 /// A comma or a semicolon, which parts a list.

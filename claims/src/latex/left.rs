@@ -2,10 +2,16 @@
 
 use super::Unreadable;
 use super::glyph;
+use super::spaced;
 use super::token::{self, Kind, Token};
 
-/// Splits a text into tokens, with indices on the left marked.
+/// Splits a text into tokens, with indices on the left marked, and commas where a list has spaces.
 pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Unreadable> {
+    Ok(spaced::with_commas(text, as_set(text)?))
+}
+
+/// The same tokens as a text has them, without commas that it has not.
+pub(super) fn as_set(text: &str) -> Result<Vec<Token>, Unreadable> {
     Ok(marked(token::tokens(text)?))
 }
 
@@ -22,6 +28,16 @@ fn marked(tokens: Vec<Token>) -> Vec<Token> {
         if empty && is_script(kind(2)) && !is_index {
             marked.push(Token { kind: Kind::Left, ..token.clone() });
             at += 2;
+            continue;
+        }
+        // `{+}`: without the space around it.
+        if token.kind == Kind::Mark('{')
+            && matches!(kind(1), Some(Kind::Mark('+' | '-' | '*' | '×' | '/' | '=')))
+            && kind(2) == Some(&Kind::Mark('}'))
+            && marked.last().is_none_or(|last| !takes_group(&last.kind) || last.kind == Kind::Mark('}'))
+        {
+            marked.extend(tokens.get(at + 1).cloned());
+            at += 3;
             continue;
         }
         // `{}+`: nothing, for the sake of the space before a sign.

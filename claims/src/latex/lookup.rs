@@ -143,7 +143,9 @@ impl PrintedSymbols {
                     own.clone_from(outer);
                 }
             }
-            return with(bare, After::Skew);
+            if let Some(found) = with(bare, After::Skew) {
+                return Some(found);
+            }
         }
         if matches!(last.lower.as_str(), "×" | "\\wedge") {
             return with(Glyph { lower: String::new(), ..last.clone() }, After::Skew);

@@ -20,10 +20,13 @@ mod glyph;
 mod layout;
 mod left;
 mod lookup;
+mod mathml;
 mod naming;
 mod parser;
 mod printed;
 pub mod program;
+mod signs;
+mod spaced;
 mod token;
 mod typed;
 mod unknown;
@@ -40,7 +43,12 @@ use model_core::expr::Expr;
 use model_core::mistake::Mistake;
 use parser::{Matrix, Parser, Value};
 
-pub use collect::{definition_of, equal_sides, equalities_of, equations_beside, rows_of, symbols_in};
+pub use collect::{
+    Derivative, definition_of, derivative_of, derivatives_of, equal_sides, equalities_of, equations_beside,
+    is_derivative, lines_of, named_component, rows_of, shown_axis, symbols_in,
+};
+pub use mathml::mathml;
+pub use naming::NameOf;
 pub use parser::Notes;
 pub use printed::{PrintedSymbols, Turned};
 
@@ -64,17 +72,17 @@ pub fn root_name(prime: i64) -> String {
 /// # Errors
 /// The first thing that cannot be read, with its place.
 pub fn read_formula(text: &str, symbols: &PrintedSymbols) -> Result<Formula, Unreadable> {
-    read_component(text, symbols, None).map(|(formula, _)| formula)
+    read_component(text, symbols, NameOf::Formula).map(|(formula, _)| formula)
 }
 
-/// Reads the formula of one component (0, 1, 2 for x, y, z); a name on the left of `=` may not say another one.
+/// Reads the formula of one number; a name on the left of `=` may not say that it is another one.
 ///
 /// # Errors
 /// The first thing that cannot be read, with its place.
 pub fn read_component(
     text: &str,
     symbols: &PrintedSymbols,
-    axis: Option<usize>,
+    name_of: NameOf,
 ) -> Result<(Formula, Notes), Unreadable> {
     let mut rows = layout::rows(text, left::tokens(text)?, false)?.into_iter();
     let Some(row) = rows.next() else {
@@ -85,30 +93,29 @@ pub fn read_component(
             second.name.first().or(second.formula.first()).map_or(second.end, |token| token.place.clone());
         return Err(Mistake::new(place, "a second formula, where one component stands"));
     }
-    naming::check(text, &row, axis)?;
     let (value, notes) = value(text, &row, symbols)?;
-    Ok((value.scalar()?, notes))
+    Ok((naming::named(text, &row, symbols, name_of, value)?.scalar()?, notes))
 }
 
 /// Reads a printed vector, `[a, b, c]^T`, `\begin{bmatrix} a \\ b \\ c \end{bmatrix}`, three rows, or sums and products of
-/// vectors and matrices, into its components. `axes` are the components that names on the left of `=` may say, row by row.
+/// vectors and matrices, into its components. `names` says what each row's name on the left of `=` is the name of.
 ///
 /// # Errors
 /// The first thing that cannot be read, with its place.
 pub fn read_vector(
     text: &str,
     symbols: &PrintedSymbols,
-    axes: &[Option<usize>],
+    names: &[NameOf],
 ) -> Result<(Vec<Formula>, Notes), Unreadable> {
     let rows = layout::rows(text, left::tokens(text)?, true)?;
     let mut components = Vec::with_capacity(rows.len());
     let mut notes = Notes::default();
     let alone = rows.len() == 1;
     for (at, row) in rows.iter().enumerate() {
-        naming::check(text, row, axes.get(at).copied().flatten().filter(|_| !alone))?;
         let (value, own) = value(text, row, symbols)?;
         notes.join(&own);
-        match value {
+        let name_of = NameOf::in_row(names, at, alone);
+        match naming::named(text, row, symbols, name_of, value)? {
             Value::Matrix(matrix) if alone && matrix.is_vector() => components.extend(matrix.entries),
             value => components.push(value.scalar()?),
         }
@@ -139,7 +146,10 @@ pub fn read_matrix(text: &str, symbols: &PrintedSymbols) -> Result<PrintedMatrix
         return Err(Mistake::new(0..text.len(), "one matrix is wanted"));
     };
     let (value, notes) = value(text, row, symbols)?;
-    PrintedMatrix::of(value, notes)
+    if naming::is_derivative(&row.name) {
+        return PrintedMatrix::of(value, notes);
+    }
+    PrintedMatrix::of(naming::named(text, row, symbols, NameOf::Formula, value)?, notes)
 }
 
 impl PrintedMatrix {
@@ -160,10 +170,17 @@ pub fn read_total(text: &str, symbols: &PrintedSymbols) -> Result<Formula, Unrea
     let [row] = rows.as_slice() else {
         return Err(Mistake::new(0..text.len(), "one formula is wanted"));
     };
+    naming::is_name_alone(text, row, symbols)?;
     let mut parser = Parser::new(text, &row.formula, row.end.clone(), symbols);
     let radicand = parser.radicand()?;
     parser.expect_end()?;
     Ok(radicand)
+}
+
+/// The mistake that amounts stand around a name in a way that cannot be solved for it.
+fn more_than_a_name(place: Range<usize>) -> Unreadable {
+    Mistake::new(place, "what stands on the left of `=` is more than a name")
+        .with_help("give the right-hand side alone")
 }
 
 fn value(text: &str, row: &Row, symbols: &PrintedSymbols) -> Result<(Value, Notes), Unreadable> {

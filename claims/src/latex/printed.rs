@@ -25,6 +25,8 @@ pub struct PrintedSymbols {
     pub(super) turned: Turned,
     /// Whether `c_1` and `s_1` are a cosine and a sine.
     pub(super) abbreviates: bool,
+    /// Whether bold `i`, `j` and `k` are unit vectors.
+    pub(super) has_unit_letters: bool,
 }
 
 /// What the matrix of a rotation about a named axis turns, where a print does not define it.
@@ -176,6 +178,21 @@ impl PrintedSymbols {
         self
     }
 
+    /// The same table with a name for an amount, or for a matrix of them, that is looked for.
+    pub(super) fn with_name(&self, wanted: &str, [rows, columns]: [usize; 2]) -> Self {
+        let mut table = self.clone();
+        let meaning = match rows * columns {
+            1 => Meaning::Amount(name(wanted)),
+            count => {
+                let entries = (0..count).map(|at| name(&format!("{wanted} {at}"))).collect();
+                Meaning::Matrix { rows, columns, entries }
+            }
+        };
+        let key = Key { glyphs: vec![Glyph::bare(wanted)], arguments: Vec::new() };
+        table.insert(key, Entry { printed: wanted.to_owned(), meaning, is_declared: false });
+        table
+    }
+
     /// A symbol as it is set, or in another weight if only one is known.
     pub(super) fn entry(&self, glyphs: &[Glyph], arguments: &[Vec<Glyph>]) -> Option<&Entry> {
         let key = Key { glyphs: glyphs.to_vec(), arguments: arguments.to_vec() };
@@ -195,7 +212,7 @@ impl PrintedSymbols {
         self.entries.values().find(|entry| entry.printed == text)
     }
 
-    /// Whether a text is one printed symbol.
+    /// Whether a text is one printed symbol, in the type that it is set in: `\mathbf{r}` is none where only `r` is known.
     pub(crate) fn prints(&self, text: &str) -> bool {
         symbol_key(text).is_ok_and(|key| self.entries.contains_key(&key))
     }
@@ -204,6 +221,12 @@ impl PrintedSymbols {
     #[must_use]
     pub fn knows_symbol(&self, text: &str) -> bool {
         symbol_key(text).is_ok_and(|key| self.entry(&key.glyphs, &key.arguments).is_some())
+    }
+
+    /// The declared name that a text is the printed symbol of.
+    pub(crate) fn name_printed(&self, text: &str) -> Option<&str> {
+        let key = symbol_key(text).ok()?;
+        self.entry(&key.glyphs, &key.arguments)?.name()
     }
 
     /// Whether a name is declared.

@@ -33,7 +33,7 @@ pub(super) fn shown(formula: &Expr<Range<usize>>) -> String {
 
 /// The components of a vector.
 fn vector(text: &str, symbols: &PrintedSymbols) -> Result<Vec<Formula>, Unreadable> {
-    read_vector(text, symbols, &[Some(0), Some(1), Some(2)]).map(|(components, _)| components)
+    read_vector(text, symbols, &[0, 1, 2].map(NameOf::Component)).map(|(components, _)| components)
 }
 
 fn symbol(name: &str) -> Expr<()> {
@@ -215,7 +215,7 @@ fn what_cannot_be_read_is_refused_at_its_place() {
         (r"(x + 1", "", "where `)` should stand"),
         (r"(x + 1]", "]", "where `)` should stand"),
         (r"x)", ")", "no such bracket is open"),
-        (r"x + 1 = 2", "+", "the right-hand side alone"),
+        (r"x + 1 = 2", "x + 1", "the right-hand side alone"),
         (r"1 = x", "1", "the right-hand side alone"),
         (r"x = 2 = 2", "=", "two formulas"),
         (r"x \quad (6) x", r"\quad", "a wide space"),

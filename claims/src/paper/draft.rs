@@ -1,17 +1,17 @@
 //! A claims file drawn up from a paper, its guesses marked, and what could not be read.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 use model_core::expr::Expr;
 use model_core::{Chain, ObservableId};
-use toml::Value;
 
 use super::guess::Guess;
 use super::macros::Macros;
 use super::source::{Equation, Kind, equations};
+use super::written::{key, on_one_line, quoted, said, without_condition};
 use super::{guess, prose};
-use crate::checker::{Checker, extended};
+use crate::checker::{Checker, Claim, Equality, Verdict, extended};
 use crate::latex::{self, PrintedSymbols};
 
 /// What the first line of a drawn-up file begins with.
@@ -55,6 +55,8 @@ pub fn draft(source: &str, kind: Kind, chain: &Chain, file: &str, chain_file: &s
         claims: String::new(),
         count: 0,
         unread: Vec::new(),
+        defined: Vec::new(),
+        claimed: BTreeSet::new(),
         names: BTreeMap::new(),
         undefined: Vec::new(),
         turns_vectors: false,
@@ -78,12 +80,24 @@ pub fn draft(source: &str, kind: Kind, chain: &Chain, file: &str, chain_file: &s
             drawn.equation(&mut checker, equation);
         }
     }
+    drawn.again(&mut checker);
     let mut text = format!("{MARK} {file}. What follows `guess` was not in the paper: look it over.\n");
     let rotations =
         if drawn.turns_vectors { "rotations = \"vectors\"  # guess, by the claims that hold\n" } else { "" };
     let _ = writeln!(text, "chain = {}\n{rotations}\n[symbols]\n{}", quoted(chain_file), drawn.table);
     text.push_str(&drawn.claims);
-    Draft { text, claims: drawn.count, unread: drawn.unread, chain: chain_of(source) }
+    let unread = drawn.unread.into_iter().map(|unread| (unread.line, unread.text, unread.reason)).collect();
+    Draft { text, claims: drawn.count, unread, chain: chain_of(source) }
+}
+
+/// An equation without a claim.
+#[derive(Debug, Clone)]
+struct Unread {
+    line: usize,
+    text: String,
+    reason: String,
+    /// How many symbols were defined when it was read.
+    known: usize,
 }
 
 struct Drawn<'a> {
@@ -92,7 +106,11 @@ struct Drawn<'a> {
     table: String,
     claims: String,
     count: usize,
-    unread: Vec<(usize, String, String)>,
+    unread: Vec<Unread>,
+    /// Symbols that the paper defines, in the order in which their definitions were read.
+    defined: Vec<String>,
+    /// What is claimed: line and equation.
+    claimed: BTreeSet<(usize, String)>,
     /// What names on the left of `=` stood for in claims so far.
     names: BTreeMap<String, (ObservableId, usize)>,
     /// Symbols whose definitions could not be read: the line, and why.
@@ -140,25 +158,46 @@ impl Drawn<'_> {
             }
             return;
         }
+        // Lines of which one is a chain of equalities are read one by one.
+        let lines = latex::lines_of(&equation.text);
+        if lines.len() > 1 && lines.iter().any(|line| latex::equalities_of(line).len() > 1) {
+            for text in lines {
+                self.equation(checker, &Equation { text, ..equation.clone() });
+            }
+            return;
+        }
         // `A = B = C`, and a condition behind a wide space.
         let sides = latex::equalities_of(&equation.text);
-        if sides.len() > 1 {
+        if sides.len() > 1 || sides.iter().any(|side| *side != equation.text) {
+            let derivatives = latex::derivatives_of(&equation.text);
+            if !derivatives.is_empty() && derivatives.iter().all(|text| self.whole(checker, equation, text)) {
+                for side in &sides {
+                    let _ = self.definition(equation, side);
+                }
+                return;
+            }
             let mut failed = Vec::new();
             for side in &sides {
                 if !self.whole(checker, equation, side)
                     && let Err(why) = self.definition(equation, side)
                 {
-                    failed.push((equation.line, side.clone(), why));
+                    failed.push((side.clone(), why));
                 }
             }
             if failed.len() < sides.len() {
-                self.unread.extend(failed);
+                for (side, why) in failed {
+                    self.unread(equation.line, side, why);
+                }
                 return;
             }
         }
         if let Some(text) = without_condition(&equation.text)
             && self.whole(checker, equation, &text)
         {
+            return;
+        }
+        let identity = self.identity(equation);
+        if identity == Some(true) {
             return;
         }
         let rows = latex::rows_of(&equation.text);
@@ -174,6 +213,11 @@ impl Drawn<'_> {
                 continue;
             }
             match self.definition(equation, row) {
+                // A name that says a component is more than an abbreviation.
+                Ok(()) if equation.is_display && latex::named_component(row).is_some() => {
+                    read = true;
+                    reason = reason.or(Some(USED.to_owned()));
+                }
                 Ok(()) => read = true,
                 Err(why) => {
                     if let Some((name, _)) = latex::definition_of(row) {
@@ -188,17 +232,71 @@ impl Drawn<'_> {
         {
             // An aside such as `$n = 5$` is no statement about the chain.
             if equation.is_display || reason.starts_with("differs") {
-                let shown = equation.text.split_whitespace().collect::<Vec<_>>().join(" ");
+                let shown = on_one_line(&equation.text);
                 let missing = |(name, line, _): &&(String, usize, String)| {
                     *line != equation.line && reason.contains(&format!("unknown symbol `{name}`"))
                 };
                 let reason = match self.undefined.iter().find(missing) {
                     Some((_, line, why)) => format!("{reason}; line {line} defines it, where {why}"),
+                    None if identity == Some(false) => OPEN.to_owned(),
                     None => reason,
                 };
-                self.unread.push((equation.line, shown, reason));
+                self.unread(equation.line, shown, reason);
             }
         }
+    }
+
+    /// Equations with symbols that a later one defines are read once more.
+    fn again(&mut self, checker: &mut Checker<'_>) {
+        for _ in 0..ROUNDS {
+            let is_late = |unread: &Unread| {
+                let printed = latex::symbols_in(&unread.text);
+                self.defined[unread.known..].iter().any(|symbol| printed.contains(symbol))
+            };
+            let (late, unread): (Vec<Unread>, Vec<Unread>) = self.unread.iter().cloned().partition(is_late);
+            self.unread = unread;
+            if late.is_empty() {
+                break;
+            }
+            for Unread { line, text, .. } in late {
+                self.equation(checker, &Equation { line, text, is_display: true, place: 0..0 });
+            }
+        }
+        self.unread.sort_by_key(|unread| unread.line);
+    }
+
+    fn unread(&mut self, line: usize, text: String, reason: String) {
+        self.unread.push(Unread { line, text, reason, known: self.defined.len() });
+    }
+
+    /// Two formulas that are one, both of them more than a name: `|\vec r|^2 = …`.
+    fn identity(&mut self, equation: &Equation) -> Option<bool> {
+        let text = &equation.text;
+        let places = latex::equal_sides(text);
+        let [first, second] = places.as_slice() else { return None };
+        let sides = [&text[first.clone()], &text[second.clone()]];
+        if !equation.is_display || latex::definition_of(text).is_some() {
+            return None;
+        }
+        let claimed = match Equality::read(self.chain, &self.symbols, sides) {
+            Ok(one) => vec![one],
+            Err(_) => {
+                let entries = Equality::read_entries(self.chain, &self.symbols, sides)?.ok()?;
+                entries.into_iter().map(|(_, equality)| equality).collect()
+            }
+        };
+        let turned = claimed.iter().any(Equality::is_turned);
+        let mut checker = Checker::new(self.chain);
+        for equality in claimed {
+            let Ok(Verdict::Equality(verdict)) = checker.check(&Claim::Equality(Box::new(equality))) else {
+                return None;
+            };
+            if !verdict.difference.is_zero() {
+                return Some(false);
+            }
+        }
+        self.claim(equation, text, &Guess::identity(turned));
+        Some(true)
     }
 
     fn whole(&mut self, checker: &mut Checker<'_>, equation: &Equation, text: &str) -> bool {
@@ -224,6 +322,9 @@ impl Drawn<'_> {
     }
 
     fn claim(&mut self, equation: &Equation, text: &str, guess: &Guess) {
+        if !self.claimed.insert((equation.line, on_one_line(text))) {
+            return;
+        }
         self.count += 1;
         self.turns_vectors |= guess.turned;
         if let Some((observable, only)) = guess.of {
@@ -252,11 +353,16 @@ impl Drawn<'_> {
             let read = latex::read_matrix(row, &self.symbols.reading(&[row]));
             return Err(read.map_or_else(said, |_| "agrees with no statement about the chain".to_owned()));
         };
-        if self.symbols.knows_symbol(&name) {
-            return Err("agrees with no statement about the chain".to_owned());
+        let unknown = || Err("agrees with no statement about the chain".to_owned());
+        if self.symbols.prints(&name) {
+            return unknown();
         }
         let symbols = self.symbols.reading(&[&formula]);
         let matrix = latex::read_matrix(&formula, &symbols).map_err(said)?;
+        // `\mathbf{r}` may be a vector beside the length `r`.
+        if matrix.entries.len() == 1 && self.symbols.knows_symbol(&name) {
+            return unknown();
+        }
         let known = |entry: &Expr<std::ops::Range<usize>>| {
             entry.names().iter().all(|(name, _)| self.chain.find_symbol(name).is_some())
         };
@@ -268,6 +374,7 @@ impl Drawn<'_> {
             entries => self.symbols.define_matrix(&name, matrix.columns, entries),
         };
         defined.map_err(|mistake| mistake.message)?;
+        self.defined.push(name.clone());
         let _ = writeln!(
             self.table,
             "{} = {}  # defined in line {}",
@@ -280,28 +387,11 @@ impl Drawn<'_> {
     }
 }
 
-/// A mistake and what to write instead.
-fn said(mistake: latex::Unreadable) -> String {
-    mistake.help.map_or(mistake.message.clone(), |help| format!("{}; {help}", mistake.message))
-}
+/// Times that equations are read again for the sake of what a later one defines.
+const ROUNDS: usize = 3;
 
-/// An equation without what stands behind its last wide space: `\qquad k = 1, 2`.
-fn without_condition(text: &str) -> Option<String> {
-    let at = text.rfind("\\qquad").or_else(|| text.rfind("\\quad"))?;
-    let end = text[at..].find("\\end{").map_or(text.len(), |end| at + end);
-    let is_condition = text[..at].contains('=') && !text[at..end].contains("\\\\");
-    is_condition.then(|| format!("{}{}", &text[..at], &text[end..]))
-}
+/// What is said of an equation that is no statement about the chain, and names a component.
+const USED: &str = "agrees with no statement about the chain, and is only used where its name stands";
 
-/// A text as a key of TOML.
-fn key(text: &str) -> String {
-    if text.contains(['\'', '\n']) { Value::String(text.to_owned()).to_string() } else { format!("'{text}'") }
-}
-
-/// A text as a string of TOML.
-fn quoted(text: &str) -> String {
-    if text.contains("'''") || text.ends_with('\'') {
-        return Value::String(text.to_owned()).to_string();
-    }
-    if text.contains(['\\', '\n', '"', '\'']) { format!("'''{text}'''") } else { format!("\"{text}\"") }
-}
+/// What is said of an equation of two known formulas that are not one.
+const OPEN: &str = "its sides differ. Where they should agree at every pose, claim it by `equal`";

@@ -1,9 +1,9 @@
 //! What of a chain an equation states.
 
 use model_core::chain::BodyId;
-use model_core::{Chain, ObservableId, SymbolId, SymbolKind};
+use model_core::{Axis, Chain, ObservableId, SymbolId, SymbolKind};
 
-use crate::checker::entries::{Entries, EntriesOf};
+use crate::checker::entries::{Entries, EntriesOf, EntryDifference};
 use crate::checker::{Checker, Claim, ClosedForm, Difference, Order, PrintedVector, TermSlip, Verdict};
 use crate::latex::{self, PrintedSymbols};
 
@@ -22,6 +22,13 @@ pub(super) struct Guess {
     pub of: Option<(ObservableId, Option<usize>)>,
     /// Whether `R_z(\psi)` was read as a turn of vectors.
     pub turned: bool,
+}
+
+impl Guess {
+    /// That two formulas are one.
+    pub fn identity(turned: bool) -> Self {
+        Self { keys: Vec::new(), key: "equal", holds: true, differs: [0, 1], of: None, turned }
+    }
 }
 
 /// The statement about the chain that an equation makes: the first true one, or the one that most of its terms agree with.
@@ -62,6 +69,10 @@ enum Way {
     One { observable: ObservableId, at: usize },
     /// What an observable shows.
     Shown { observable: ObservableId, order: u32 },
+    /// One number of what an observable shows, that the name says.
+    OneShown { observable: ObservableId, order: u32 },
+    /// What the name derives, by the one symbol that it says.
+    Derivative { observable: ObservableId },
     /// How a body stands.
     Frame { body: BodyId, order: u32 },
     /// The derivatives of what an observable shows by symbols of a kind.
@@ -93,6 +104,10 @@ fn ways(chain: &Chain) -> Vec<Way> {
         found.push(Way::Form { observable, is_correction: true });
         if shown.has_components_only() && shown.is_vector() {
             found.extend([SymbolKind::Joint, SymbolKind::Error].map(|by| Way::Jacobian { observable, by }));
+            found.push(Way::Derivative { observable });
+            if !shown.is_orientation() {
+                found.extend([0, 1].map(|order| Way::OneShown { observable, order }));
+            }
         }
     }
     for body in (0u16..).zip(&chain.bodies).map(|(index, _)| BodyId(index)) {
@@ -121,8 +136,7 @@ impl Way {
             }
             Self::One { observable, at } => {
                 let shown = chain.observable(observable);
-                let axis =
-                    [model_core::Axis::X, model_core::Axis::Y, model_core::Axis::Z].get(at).copied()?;
+                let axis = AXES.get(at).copied()?;
                 let printed =
                     PrintedVector::read_one(chain, symbols, text, shown, axis, Order::UpTo(1)).ok()?;
                 let keys =
@@ -131,9 +145,9 @@ impl Way {
             }
             Self::Shown { observable, order } => {
                 let shown = chain.observable(observable);
-                let axes = vec![None; shown.shown.len()];
+                let names = vec![latex::NameOf::Formula; shown.shown.len()];
                 let symbols = symbols.reading(&[text]);
-                let (entries, notes) = PrintedVector::texts(&symbols, &axes, &[text]).ok()?;
+                let (entries, notes) = PrintedVector::texts(&symbols, &names, &[text]).ok()?;
                 let matrix = latex::PrintedMatrix { rows: entries.len(), columns: 1, entries, notes };
                 if matrix.entries.len() != shown.shown.len() {
                     return None;
@@ -141,6 +155,38 @@ impl Way {
                 let keys = vec![("observable", shown.name.clone()), ("order", order.to_string())];
                 let of = EntriesOf::Shown(observable);
                 entries_of(checker, chain, (keys, "shows"), of, order, &all, matrix)
+            }
+            Self::OneShown { observable, order } => {
+                let at = latex::shown_axis(text)?;
+                let shown = chain.observable(observable);
+                let names = [latex::NameOf::Component(at)];
+                let symbols = symbols.reading(&[text]);
+                let (entries, notes) = PrintedVector::texts(&symbols, &names, &[text]).ok()?;
+                let matrix = latex::PrintedMatrix { rows: 1, columns: 1, entries, notes };
+                let keys = vec![
+                    ("observable", shown.name.clone()),
+                    ("component", shown.label(at).to_owned()),
+                    ("order", order.to_string()),
+                ];
+                let of = EntriesOf::Shown(observable);
+                one_of(checker, chain, (keys, "shows"), (of, AXES.get(at).copied()), order, &all, matrix)
+            }
+            Self::Derivative { observable } => {
+                let latex::Derivative { component, by } = latex::derivative_of(text)?;
+                let symbol = chain.find_symbol(symbols.name_printed(&by)?)?;
+                let symbols = symbols.reading(&[text]);
+                let matrix = latex::read_matrix(text, &symbols).ok()?;
+                let shown = chain.observable(observable);
+                let rows = if component.is_some() { 1 } else { shown.shown.len() };
+                if [matrix.rows, matrix.columns] != [rows, 1] {
+                    return None;
+                }
+                let names = format!("[\"{}\"]", chain.symbol(symbol).name);
+                let mut keys = vec![("observable", shown.name.clone()), ("by", names)];
+                keys.extend(component.map(|at| ("component", shown.label(at).to_owned())));
+                let of = EntriesOf::Jacobian { observables: vec![observable], by: vec![symbol] };
+                let only = component.and_then(|at| AXES.get(at).copied());
+                one_of(checker, chain, (keys, "jacobian"), (of, only), 1, &all, matrix)
             }
             Self::Frame { body, order } => {
                 let symbols = symbols.reading(&[text]);
@@ -177,7 +223,7 @@ fn form(
     chain: &Chain,
     mut keys: Vec<(&'static str, String)>,
     key: &'static str,
-    (observable, only): (ObservableId, Option<model_core::Axis>),
+    (observable, only): (ObservableId, Option<Axis>),
     all: &[SymbolId],
     printed: PrintedVector,
 ) -> Option<Guess> {
@@ -228,7 +274,7 @@ fn form(
             )
         )
     };
-    let of = (!is_correction).then_some((observable, only.map(model_core::Axis::index)));
+    let of = (!is_correction).then_some((observable, only.map(Axis::index)));
     let near = verdict.differences.iter().filter(is_near).count();
     let score = if compared < FEW { [differs, compared] } else { [3 * differs - 2 * near, 3 * compared] };
     Some(Guess { keys, key, holds: differs == 0, differs: score, of, turned: claim.printed.turned })
@@ -237,11 +283,26 @@ fn form(
 /// Of fewer terms a likeness says little.
 const FEW: usize = 4;
 
+const AXES: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
+
 fn entries_of(
     checker: &mut Checker<'_>,
     chain: &Chain,
-    (keys, key): (Vec<(&'static str, String)>, &'static str),
+    keys: (Vec<(&'static str, String)>, &'static str),
     of: EntriesOf,
+    order: u32,
+    kept: &[SymbolId],
+    matrix: latex::PrintedMatrix,
+) -> Option<Guess> {
+    one_of(checker, chain, keys, (of, None), order, kept, matrix)
+}
+
+/// Entries, or one number of them.
+fn one_of(
+    checker: &mut Checker<'_>,
+    chain: &Chain,
+    (keys, key): (Vec<(&'static str, String)>, &'static str),
+    (of, only): (EntriesOf, Option<Axis>),
     order: u32,
     kept: &[SymbolId],
     matrix: latex::PrintedMatrix,
@@ -250,18 +311,25 @@ fn entries_of(
     // In a matrix zeros agree with anything.
     let said = |printed: &&PrintedVector| !printed.components[0].value.above.is_zero();
     let entries = if key == "shows" { printed.len() } else { printed.iter().filter(said).count() };
+    let is_single = printed.len() == 1;
     let is_turned = printed.iter().any(|printed| printed.turned);
     let labels = (1..=printed.len()).map(|at| at.to_string()).collect();
-    let claim = Entries { of, order: Order::UpTo(order), kept: kept.to_vec(), labels, printed };
+    let claim = Entries { of, order: Order::UpTo(order), kept: kept.to_vec(), only, labels, printed };
     let Verdict::Entries(verdict) = checker.check(&Claim::Entries(Box::new(claim))).ok()? else {
         return None;
     };
     let differs = verdict.differences.len();
+    // One formula of the same terms, some with slips, is still that formula.
+    let is_near = |difference: &EntryDifference| {
+        let [printed, derived] = [&difference.printed, &difference.derived];
+        printed.above.len() == derived.above.len() && printed.symbols() == derived.symbols()
+    };
+    let is_near = is_single && verdict.differences.iter().all(is_near);
     Some(Guess {
         keys,
         key,
         holds: differs == 0,
-        differs: [differs, entries.max(differs).max(1)],
+        differs: if is_near { [differs, 3] } else { [differs, entries.max(differs).max(1)] },
         of: None,
         turned: is_turned,
     })

@@ -10,6 +10,7 @@ mod guess;
 mod macros;
 mod prose;
 mod source;
+mod written;
 
 pub use draft::{Draft, MARK, draft};
 pub use source::{Equation, Kind};

@@ -6,6 +6,7 @@ use model_core::{escape, print};
 
 use crate::checker::{Claim, Outcome, Verdict};
 use crate::file::{Checked, Claims, Unread};
+use crate::latex::mathml;
 
 /// How a table is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,7 +15,7 @@ pub enum Format {
     Markdown,
     /// A `longtable` of LaTeX.
     Latex,
-    /// A page of HTML, formulas as they are written in LaTeX.
+    /// A page of HTML, formulas as MathML; what cannot be set so, as it is written in LaTeX.
     Html,
 }
 
@@ -102,8 +103,7 @@ pub fn of_claim(file: &Claims, Checked { claim, verdict }: &Checked<'_>) -> Line
             }
         }
         (Verdict::Equality(equality), _) if !equality.difference.is_zero() => {
-            remarks
-                .push(vec![words("the first less the second is ".to_owned()), latex(&equality.difference)]);
+            remarks.push(vec![words(equality.words().to_owned()), latex(&equality.difference)]);
         }
         (Verdict::Entries(entries), _) => {
             for difference in &entries.differences {
@@ -263,7 +263,8 @@ fn html(title: &str, lines: &[Line], total: &str) -> String {
     let cell = |pieces: &[Piece]| -> String {
         let written = pieces.iter().map(|piece| match piece {
             Piece::Words(text) => words(text).into_owned(),
-            Piece::Formula(text) | Piece::Code(text) => format!("<code>{}</code>", words(text)),
+            Piece::Formula(text) => mathml(text).unwrap_or_else(|| format!("<code>{}</code>", words(text))),
+            Piece::Code(text) => format!("<code>{}</code>", words(text)),
         });
         written.collect()
     };

@@ -59,7 +59,7 @@ pub fn as_text(file: &Claims, checked: &[Checked<'_>], paint: &Paint) -> Screen 
             Verdict::Equality(equality) => {
                 if !equality.difference.is_zero() {
                     let difference = equality.difference.show_by(&file.printed, style, &file.hand);
-                    let _ = writeln!(out, "    the first less the second is {difference}");
+                    let _ = writeln!(out, "    {}{difference}", equality.words());
                 }
             }
             Verdict::Total(total) => write_total(&mut out, &file.printed, total, style),

@@ -1,11 +1,11 @@
 //! Whatever stands in a print or in a paper's source is read or refused, never a panic.
 
-use claims::latex::{PrintedSymbols, program, read_matrix, read_vector, symbols_in};
+use claims::latex::{NameOf, PrintedSymbols, mathml, program, read_matrix, read_vector, symbols_in};
 use claims::paper::{Kind, draft};
 use model_core::Chain;
 use proptest::prelude::*;
 
-const PIECES: [&str; 72] = [
+const PIECES: [&str; 81] = [
     r"\begin{bmatrix}",
     r"\end{bmatrix}",
     "&",
@@ -78,6 +78,15 @@ const PIECES: [&str; 72] = [
     "é",
     "\u{2207}",
     r"\newcommand{\x}[1]{#1}",
+    "|",
+    r"\|",
+    r"\lVert ",
+    r"\rVert ",
+    r"\Delta x",
+    r"\partial ",
+    r"\ ",
+    "<",
+    "\u{202e}",
 ];
 
 fn chain() -> Chain {
@@ -96,11 +105,14 @@ proptest! {
         let entry = model_core::syntax::parse_amount("e").unwrap();
         symbols.define_matrix(r"\vec{\omega}", 1, &[entry.clone(), entry.clone(), entry]).unwrap();
         let symbols = symbols.reading(&[&text]);
-        let _ = read_vector(&text, &symbols, &[Some(0), None, Some(2)]);
+        let _ = read_vector(&text, &symbols, &[NameOf::Component(0), NameOf::Formula, NameOf::Sideways]);
         let _ = read_matrix(&text, &symbols);
         let _ = program::read_vector(&text, &symbols, &[]);
         let _ = program::read_matrix(&text, &symbols);
         let _ = symbols_in(&text);
+        if let Some(page) = mathml(&text) {
+            assert!(crate::mathml::is_well_formed(&page), "{text}: {page}");
+        }
         for kind in [Kind::Tex, Kind::Markdown] {
             let paper = format!("\\begin{{equation}}{text}\\end{{equation}} $x$ is {text}");
             let _ = draft(&paper, kind, &chain, "p", "c");

@@ -1,6 +1,6 @@
 //! Kinds of statements beside closed forms, each true, and each with a slip.
 
-use super::support::verdict;
+use super::support::{verdict, verdicts};
 
 /// Of true claims, and of claims that a slip spoils: the second text stands in place of the first.
 fn holds_until(chain: &str, file: &str, from: &str, to: &str) {
@@ -194,4 +194,62 @@ fn formulas_are_compared_without_a_chain() {
         "- \\cos",
     );
     holds_until("", "[[claim]]\nname = \"a\"\nequal = ['x*tan(b)', 'x*sin(b)/cos(b)']\n", "tan", "cot");
+}
+
+/// One number of what is shown, and one row of a Jacobian.
+#[test]
+fn one_component_of_what_is_shown_and_of_a_jacobian() {
+    let claim = |keys: &str| format!("chain = \"a\"\n[[claim]]\nname = \"a\"\n{keys}\n");
+    holds_until(
+        ARM,
+        &claim("observable = \"tip\"\ncomponent = \"y\"\nshows = 'p_y = l_1 s_1 + 0 c_1 + l_2 s_{12}'"),
+        "s_{12}",
+        "s_{2}",
+    );
+    holds_until(
+        ARM,
+        &claim(
+            "observable = \"tip\"\ncomponent = \"x\"\nby = [\"q2\"]\njacobian = '\\partial x/\\partial q_2 = -l_2 \\sin(q_1 + q_2)'",
+        ),
+        "-l_2",
+        "l_2",
+    );
+    holds_until(
+        ARM,
+        &claim(
+            "observable = \"turned\"\ncomponent = \"rotation_z\"\nby = [\"q1\", \"q2\"]\njacobian = '\\begin{bmatrix} 1 & 1 \\end{bmatrix}'",
+        ),
+        "1 & 1",
+        "1 & 0",
+    );
+    for wrong in [
+        "observable = \"tip\"\ncomponent = \"y\"\nshows = 'p_x = l_1 \\cos q_1'",
+        "observable = [\"tip\", \"turned\"]\ncomponent = \"x\"\nby = [\"q1\"]\njacobian = '0'",
+        "observable = \"tip\"\ncomponent = \"w\"\nshows = '0'",
+    ] {
+        let said = verdict(ARM, &claim(wrong));
+        assert!(said != "holds" && said != "differs", "{wrong}: {said}");
+    }
+}
+
+/// Two matrices that are said to be equal are compared entry by entry.
+#[test]
+fn matrices_that_are_equal() {
+    let file = |rotations: &str, right: &str| {
+        format!(
+            "chain = \"a\"\n{rotations}\n[[claim]]\nname = \"a\"\nequal = '''R_z(q_1) R_y(q_2) = \\begin{{bmatrix}} c_1 c_2 & {right}s_1 & c_1 s_2 \\\\ s_1 c_2 & c_1 & s_1 s_2 \\\\ -s_2 & 0 & c_2 \\end{{bmatrix}}'''\n"
+        )
+    };
+    let said = |rotations: &str, right: &str| -> Vec<String> {
+        verdicts(ARM, &file(rotations, right)).into_iter().map(|(_, said)| said).collect()
+    };
+    let vectors = "rotations = \"vectors\"";
+    assert_eq!(said(vectors, "-"), vec!["holds"; 9]);
+    let wrong = said(vectors, "");
+    assert_eq!([&wrong[0], &wrong[1], &wrong[8]], ["holds", "differs", "holds"]);
+    assert!(said("rotations = \"axes\"", "-").contains(&"differs".to_owned()));
+    // To which order a product of small turns is meant, nobody says.
+    let small = "chain = \"a\"\n[symbols]\n'\\mathbf{a}' = \"[0, 0, e1]\"\n'\\mathbf{b}' = \"[0, 0, e2]\"\n[[claim]]\nname = \"a\"\nequal = ['(I_3 + [\\mathbf{a}]_\\times)(I_3 + [\\mathbf{b}]_\\times)', 'I_3 + [\\mathbf{a}]_\\times + [\\mathbf{b}]_\\times']\n";
+    let said = verdict(ARM, small);
+    assert!(said.contains("equal to some order only"), "{said}");
 }

@@ -3,6 +3,8 @@
 
 mod hostile;
 mod kinds;
+mod mathml;
+mod names;
 mod notation;
 mod support;
 mod unread;

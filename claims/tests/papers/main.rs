@@ -74,3 +74,29 @@ fn the_papers_that_shaped_the_reader_are_read() {
 fn other_papers_are_read_as_well() {
     compared("tried");
 }
+
+/// The kind, the claims that should hold and differ, and the text of each short form, with its chain.
+#[test]
+fn short_forms_are_judged_or_listed() {
+    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/papers");
+    let forms = fs::read_to_string(own.join("forms.txt")).unwrap();
+    let mut wrong = Vec::new();
+    let blocks: Vec<&str> = forms.split("\n=== ").skip(1).collect();
+    assert!(blocks.len() >= 80, "{}", blocks.len());
+    for block in blocks {
+        let (head, source) = block.split_once('\n').unwrap();
+        let [name, kind, holds, differs] = head.split(' ').collect::<Vec<_>>().try_into().unwrap();
+        let text = fs::read_to_string(own.join(format!("chains/form-{name}.chain"))).unwrap();
+        let chain = Chain::symbolic_from_text(&text).unwrap();
+        let kind = if kind == "md" { Kind::Markdown } else { Kind::Tex };
+        let drawn = draft(source, kind, &chain, "paper", "a.chain");
+        let verdicts = if drawn.claims == 0 { Vec::new() } else { support::verdicts(&text, &drawn.text) };
+        let count = |word: &str| verdicts.iter().filter(|(_, said)| said == word).count().to_string();
+        let judged = [count("holds"), count("differs")];
+        if judged != [holds, differs] || verdicts.iter().any(|(_, said)| said != "holds" && said != "differs")
+        {
+            wrong.push(format!("{block}\n{verdicts:?}\n{:?}", drawn.unread));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}

@@ -169,7 +169,7 @@ fn certify(file: &ClaimsFile, checked: &[Checked<'_>]) -> Result<String, Failure
         terminal::note(format_args!("not certified: {note}"));
     }
     if certificate.is_empty() {
-        let why = "none of the claims of this file can be certified; nothing is written";
+        let why = "none of the claims of this file can be certified. Nothing is written";
         return Err(Failure::Input(why.to_owned()));
     }
     Ok(certificate.finish(&file.source.path.display().to_string()))

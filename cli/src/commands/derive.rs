@@ -149,7 +149,7 @@ fn certify(source: &Source, chosen: &[ObservableId], order: u32) -> Result<Strin
     }
     if certificate.is_empty() {
         let why = certificate.notes().join("; ");
-        return Err(Failure::Input(format!("no certificate of {why}; nothing is written")));
+        return Err(Failure::Input(format!("no certificate of {why}. Nothing is written")));
     }
     for note in certificate.notes() {
         terminal::note(format_args!("not certified: {note}"));

@@ -92,12 +92,12 @@ fn certify(source: &Source, certified: &[Identifiability]) -> Result<String, Fai
         }
         certificate.identifiability(found, |_| true);
     }
-    if certificate.is_empty() {
-        let reasons: String = certificate.notes().iter().map(|note| format!("\n    {note}")).collect();
-        return Err(Failure::Input(format!("nothing can be certified, and nothing is written:{reasons}")));
-    }
     for note in certificate.notes() {
         terminal::note(format_args!("not certified: {note}"));
+    }
+    if certificate.is_empty() {
+        let message = "nothing of this can be certified. Nothing is written";
+        return Err(Failure::Input(message.to_owned()));
     }
     Ok(certificate.finish(&source.path.display().to_string()))
 }

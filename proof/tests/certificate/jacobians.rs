@@ -26,6 +26,7 @@ fn of_jacobian(by: &[&str], jacobian: &str) -> String {
     let chain = extended(declared.chain());
     let matrix = read_matrix(jacobian, &PrintedSymbols::of_chain(&chain)).expect("a matrix");
     let claim = Entries {
+        only: None,
         of: EntriesOf::Jacobian { observables: vec![observable(&declared, "tip")], by: by.clone() },
         order: Order::UpTo(1),
         kept: Vec::new(),

@@ -255,6 +255,7 @@ fn what_cannot_be_certified_is_refused_with_the_reason() {
     assert_eq!(refused, Err(Refusal::Harmonic { multiple: 25 }));
     assert_eq!(
         refused.map_err(|refusal| refusal.to_string()),
-        Err("the sine or cosine of 25 times an angle; certificates go up to 24 times".to_owned())
+        Err("a formula contains the sine or cosine of 25 times an angle. Certificates go up to 24 times"
+            .to_owned())
     );
 }

@@ -6,7 +6,7 @@ use toml::Spanned;
 
 use super::super::table::{ClaimTable, Texts};
 use super::each;
-use crate::latex::equal_sides;
+use crate::latex::{equal_sides, is_derivative};
 
 /// What a table claims in several formulas that are said to be the same, one table for each; `None` where there is no chain.
 pub(super) fn parts(claim: &ClaimTable) -> Option<Vec<ClaimTable>> {
@@ -24,7 +24,18 @@ pub(super) fn parts(claim: &ClaimTable) -> Option<Vec<ClaimTable>> {
     if most < 3 {
         return None;
     }
-    Some((1..most).map(|side| named(with_side(claim, side), &format!("side {}", side + 1))).collect())
+    // `J = \partial p/\partial q = …`: what says which derivative it is claims nothing.
+    let is_definition = |side: usize| {
+        let places =
+            texts(claim).into_iter().filter_map(|text| Some((text, equal_sides(text).get(side)?.clone())));
+        places.into_iter().any(|(text, place)| is_derivative(&text[place]))
+    };
+    let sides: Vec<usize> = (1..most).filter(|&side| !is_definition(side)).collect();
+    if let [only] = sides.as_slice() {
+        return Some(vec![with_side(claim, *only)]);
+    }
+    let part = |side: &usize| named(with_side(claim, *side), &format!("side {}", side + 1));
+    Some(sides.iter().map(part).collect())
 }
 
 /// Neighbours in a chain of equalities; `None` where two formulas are given as they are.

@@ -10,15 +10,19 @@ use super::super::table::{CameraTable, ClaimTable, Texts};
 use super::{Place, Reader, each};
 use crate::checker::entries::{Camera, Entries, EntriesOf};
 use crate::checker::{Claim, Order, PrintedVector, lower};
-use crate::latex::{self, PrintedMatrix, program};
+use crate::latex::{self, NameOf, PrintedMatrix, program};
 
 impl Reader<'_> {
     /// Where a point is, or where a direction points.
     pub(super) fn shows(&mut self, claim: &ClaimTable) -> Option<Claim> {
         let texts = claim.shows.as_ref()?;
         let observable = self.vector(claim)?;
-        let labels = self.chain.observable(observable).labels().map(str::to_owned).collect();
-        self.several(claim, texts, EntriesOf::Shown(observable), labels)
+        let shown = self.chain.observable(observable);
+        let only = self.component(claim, shown)?;
+        let claimed = |at: usize| only.is_none_or(|only| only.index() == at);
+        let labels = shown.labels().enumerate().filter(|(at, _)| claimed(*at));
+        let labels: Vec<String> = labels.map(|(_, label)| label.to_owned()).collect();
+        self.several(claim, texts, (EntriesOf::Shown(observable), only), labels)
     }
 
     /// How a body stands, as a matrix of three or four rows.
@@ -51,7 +55,7 @@ impl Reader<'_> {
         }
         let of = EntriesOf::Frame { body, frame, is_homogeneous: matrix.columns == 4 };
         let labels = numbered(matrix.rows, matrix.columns);
-        self.entries(claim, text.span(), matrix, of, labels)
+        self.entries(claim, text.span(), matrix, (of, None), labels)
     }
 
     pub(super) fn jacobian(&mut self, claim: &ClaimTable) -> Option<Claim> {
@@ -68,8 +72,18 @@ impl Reader<'_> {
                 return None;
             }
         }
+        let only = match (observables.as_slice(), &claim.component) {
+            (&[one], _) => self.component(claim, self.chain.observable(one))?,
+            (_, None) => None,
+            (_, Some(component)) => {
+                self.mistake(component.span(), "one row is claimed of several observables").help =
+                    Some("name one observable".to_owned());
+                return None;
+            }
+        };
         let matrix = self.one_matrix(text)?;
         let rows: usize = observables.iter().map(|&id| self.chain.observable(id).shown.len()).sum();
+        let rows = if only.is_some() { 1 } else { rows };
         if [matrix.rows, matrix.columns] != [rows, by.len()] {
             let message = format!(
                 "{} × {} entries, where {rows} numbers are shown and {} symbols vary",
@@ -84,11 +98,13 @@ impl Reader<'_> {
         let by = &by;
         let labels = observables
             .iter()
-            .flat_map(|&id| chain.observable(id).labels())
+            .flat_map(|&id| chain.observable(id).labels().enumerate())
+            .filter(|(at, _)| only.is_none_or(|only| only.index() == *at))
+            .map(|(_, label)| label)
             .flat_map(|row| by.iter().map(move |&id| format!("∂{row}/∂{}", chain.symbol(id).name)))
             .collect();
         let of = EntriesOf::Jacobian { observables, by: by.clone() };
-        self.entries(claim, text.span(), matrix, of, labels)
+        self.entries(claim, text.span(), matrix, (of, only), labels)
     }
 
     pub(super) fn image(&mut self, claim: &ClaimTable) -> Option<Claim> {
@@ -101,7 +117,7 @@ impl Reader<'_> {
         };
         let camera = self.camera(observable, table.get_ref())?;
         let labels = vec!["u".to_owned(), "v".to_owned()];
-        self.several(claim, texts, EntriesOf::Image(Box::new(camera)), labels)
+        self.several(claim, texts, (EntriesOf::Image(Box::new(camera)), None), labels)
     }
 
     /// An observable that shows components of a vector, all three.
@@ -246,14 +262,14 @@ impl Reader<'_> {
         &mut self,
         claim: &ClaimTable,
         texts: &Spanned<Texts>,
-        of: EntriesOf,
+        (of, only): (EntriesOf, Option<Axis>),
         labels: Vec<String>,
     ) -> Option<Claim> {
         let written = each(texts);
         let plain: Vec<&str> = written.iter().map(|(text, _)| *text).collect();
-        let axes: Vec<Option<usize>> = vec![None; labels.len()];
+        let names = vec![only.map_or(NameOf::Formula, |axis| NameOf::Component(axis.index())); labels.len()];
         let symbols = self.symbols.reading(&plain);
-        let (entries, notes) = match PrintedVector::texts(&symbols, &axes, &plain) {
+        let (entries, notes) = match PrintedVector::texts(&symbols, &names, &plain) {
             Ok(read) => read,
             Err(mistakes) => {
                 self.unreadable(texts, mistakes);
@@ -273,7 +289,7 @@ impl Reader<'_> {
             return None;
         }
         let matrix = PrintedMatrix { rows: entries.len(), columns: 1, entries, notes };
-        self.entries(claim, texts.span(), matrix, of, labels)
+        self.entries(claim, texts.span(), matrix, (of, only), labels)
     }
 
     fn entries(
@@ -281,13 +297,13 @@ impl Reader<'_> {
         claim: &ClaimTable,
         place: Place,
         matrix: PrintedMatrix,
-        of: EntriesOf,
+        (of, only): (EntriesOf, Option<Axis>),
         labels: Vec<String>,
     ) -> Option<Claim> {
         let order = self.order_from_zero(claim)?;
         let kept = self.kept(claim)?;
         match Entries::read(self.chain, matrix, order) {
-            Ok(printed) => Some(Claim::Entries(Box::new(Entries { of, order, kept, labels, printed }))),
+            Ok(printed) => Some(Claim::Entries(Box::new(Entries { of, order, kept, only, labels, printed }))),
             Err(mistakes) => {
                 for Mistake { place: inside, message, help } in mistakes {
                     let place = place_in_string(self.text, place.clone(), inside.bytes);

@@ -133,7 +133,7 @@ impl Reader<'_> {
     }
 
     /// The one component that is claimed, if it is one; `None` for a mistake.
-    fn component(&mut self, claim: &ClaimTable, shown: &Observable) -> Option<Option<Axis>> {
+    pub(super) fn component(&mut self, claim: &ClaimTable, shown: &Observable) -> Option<Option<Axis>> {
         let Some(component) = &claim.component else { return Some(None) };
         let wanted = component.get_ref().as_str();
         let found =

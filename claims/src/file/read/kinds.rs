@@ -31,7 +31,7 @@ pub(super) const KINDS: [Kind; 17] = [
     Kind {
         key: "shows",
         name: "a formula of what is shown",
-        takes: &["observable", "order", "keep", "neglect"],
+        takes: &["observable", "component", "order", "keep", "neglect"],
         place: |claim| span(&claim.shows),
         read: |reader, claim| reader.shows(claim),
     },
@@ -45,7 +45,7 @@ pub(super) const KINDS: [Kind; 17] = [
     Kind {
         key: "jacobian",
         name: "a Jacobian",
-        takes: &["observable", "by"],
+        takes: &["observable", "component", "by"],
         place: |claim| span(&claim.jacobian),
         read: |reader, claim| reader.jacobian(claim),
     },

@@ -8,6 +8,7 @@ mod entries;
 mod exactly;
 mod formulas;
 mod kinds;
+mod matrices;
 mod measures;
 mod symbols;
 mod turns;
@@ -91,7 +92,8 @@ impl Reader<'_> {
     }
 
     fn claims_of_one(&mut self, claim: &ClaimTable) -> Vec<NamedClaim> {
-        self.matrix(claim).unwrap_or_else(|| self.claim(claim).into_iter().collect())
+        let entries = self.matrix(claim).or_else(|| self.equal_matrices(claim));
+        entries.unwrap_or_else(|| self.claim(claim).into_iter().collect())
     }
 
     /// One claim; `None` if it has a mistake, which is then noted.

@@ -154,14 +154,18 @@ impl Reader<'_> {
                 .map(|(value, half)| [value, if size < 0.0 { -&half } else { half }]);
             return Some(([value, size.abs()], exact));
         }
-        let Some((digits, exponent)) = last_digit(text) else {
+        // What one of the number's own units is in SI. A number of several parts, 12° 30′, has several.
+        let last = last_digit(text).and_then(|(digits, exponent)| {
+            let behind = text.get(digits..).filter(|behind| !behind.contains(|c: char| c.is_numeric()))?;
+            let one = format!("1{behind}");
+            let unit = self.edge.quantity(&one, quantity).ok()?;
+            Some((one, unit, exponent))
+        });
+        let Some((one, unit, exponent)) = last else {
             let message = "how far this number is rounded cannot be seen";
             self.mistake(place, message).help = Some("within = \"0.5 um\"".to_owned());
             return None;
         };
-        // What one of the number's own units is in SI.
-        let one = format!("1{}", text.get(digits..).unwrap_or_default());
-        let unit = self.edge.quantity(&one, quantity).unwrap_or(1.0);
         let half = Rational::parse_decimal(&format!("5e{}", exponent.saturating_sub(1))).ok();
         let exact = exactly(chain, text, quantity, value)
             .zip(exactly(chain, &one, quantity, unit))

@@ -35,15 +35,25 @@ fn abbreviates(texts: &[&str]) -> bool {
     found == [true; 2]
 }
 
+/// Whether at least two of bold `i`, `j` and `k` stand in a text.
+fn has_unit_letters(texts: &[&str]) -> bool {
+    let tokens: Vec<Token> = texts.iter().filter_map(|text| left::tokens(text).ok()).flatten().collect();
+    let has =
+        |letter: &str| tokens.iter().any(|token| token.bold && token.kind == Kind::Word(letter.to_owned()));
+    ["i", "j", "k"].into_iter().filter(|letter| has(letter)).count() > 1
+}
+
 impl PrintedSymbols {
-    /// The same table for texts that abbreviate cosines and sines, if these do.
+    /// The same table for texts that abbreviate cosines and sines, or have unit vectors as bold letters, if these do.
     #[must_use]
     pub fn reading(&self, texts: &[&str]) -> Cow<'_, Self> {
-        if self.abbreviates || !abbreviates(texts) {
+        let abbreviates = self.abbreviates || abbreviates(texts);
+        let has_unit_letters = self.has_unit_letters || has_unit_letters(texts);
+        if [abbreviates, has_unit_letters] == [self.abbreviates, self.has_unit_letters] {
             return Cow::Borrowed(self);
         }
         let mut own = self.clone();
-        own.abbreviates = true;
+        (own.abbreviates, own.has_unit_letters) = (abbreviates, has_unit_letters);
         Cow::Owned(own)
     }
 }

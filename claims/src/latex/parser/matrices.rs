@@ -54,7 +54,7 @@ impl Parser<'_> {
         assembled(&rows, place)
     }
 
-    /// `\hat{x}`, `\mathbf{e}_x`, `\hat{\imath}`: one of the axes, where no symbol of that name is declared.
+    /// `\hat{x}`, `\mathbf{e}_x`, `\hat{\imath}`, `\mathbf{i}` beside `\mathbf{j}`: one of the axes, where no symbol of that name is declared.
     pub(super) fn unit_vector(&mut self) -> Option<Value> {
         let read = glyph::read(&self.tokens[self.at..]).ok()??;
         let glyph = read.glyph;
@@ -72,6 +72,11 @@ impl Parser<'_> {
             _ if !glyph.upper.is_empty() && !transposed => None,
             (Some(letter), _) if glyph.lower.is_empty() => axis(letter),
             (Some("e" | "u" | "n"), _) | (None, "e") => axis(&glyph.lower),
+            (None, letter @ ("i" | "j" | "k"))
+                if glyph.bold && glyph.lower.is_empty() && self.symbols.has_unit_letters =>
+            {
+                axis(letter)
+            }
             _ => None,
         }?;
         self.at += read.tokens;

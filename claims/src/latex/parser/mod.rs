@@ -5,11 +5,13 @@ mod abbreviations;
 mod functions;
 mod matrices;
 mod named;
+mod norms;
 mod operands;
 mod orders;
 mod postfix;
 mod powers;
 mod roots;
+mod solved;
 mod sums;
 mod transforms;
 mod value;
@@ -24,6 +26,7 @@ use model_core::expr::{Expr, Node};
 use model_core::mistake::Mistake;
 use value::Product;
 
+pub(super) use solved::solved;
 pub(super) use value::{Matrix, Value};
 
 type Formula = Expr<Range<usize>>;
@@ -43,6 +46,8 @@ pub(super) struct Parser<'a> {
     symbols: &'a PrintedSymbols,
     at: usize,
     depth: usize,
+    /// What closes the lengths that are open.
+    bars: Vec<String>,
     /// What the formula turned out to need.
     pub notes: Notes,
 }
@@ -69,7 +74,7 @@ impl Notes {
 
 impl<'a> Parser<'a> {
     pub fn new(text: &'a str, tokens: &'a [Token], end: Range<usize>, symbols: &'a PrintedSymbols) -> Self {
-        Self { text, tokens, end, symbols, at: 0, depth: 0, notes: Notes::default() }
+        Self { text, tokens, end, symbols, at: 0, depth: 0, bars: Vec::new(), notes: Notes::default() }
     }
 
     fn peek(&self) -> Option<&'a Token> {
@@ -164,8 +169,11 @@ impl<'a> Parser<'a> {
         self.expression(Binding::Sum)
     }
 
-    /// `\sqrt{…}`, and what stands below the root.
+    /// `\sqrt{…}`, and what stands below the root; a length is one.
     pub fn radicand(&mut self) -> Result<Formula, Unreadable> {
+        if self.starts_length() {
+            return self.square_of_length();
+        }
         if !self.is_at_command("sqrt") {
             return Err(self.unexpected("`\\sqrt{…}`"));
         }
@@ -292,20 +300,28 @@ impl<'a> Parser<'a> {
     }
 
     fn starts_operand(&self) -> bool {
-        self.peek().is_some_and(|token| match &token.kind {
-            Kind::Digit(_) | Kind::OpenBrace | Kind::Begin(_) | Kind::Mark('(' | '[' | '{' | '.') => true,
-            Kind::Command(name) => {
-                function(name).is_some()
-                    || is_fraction(name)
-                    || matches!(name.as_str(), "sqrt" | "sum" | "exp" | RAMP)
-                    || glyph::starts(&token.kind)
-            }
-            Kind::Name(_) => true,
-            kind => glyph::starts(kind),
-        })
+        self.starts_length()
+            || self.peek().is_some_and(|token| match &token.kind {
+                Kind::Digit(_) | Kind::OpenBrace | Kind::Begin(_) | Kind::Mark('(' | '[' | '{' | '.') => true,
+                Kind::Command(name) => {
+                    function(name).is_some()
+                        || is_fraction(name)
+                        || matches!(name.as_str(), "sqrt" | "sum" | "exp" | RAMP)
+                        || glyph::starts(&token.kind)
+                }
+                Kind::Name(_) => true,
+                kind => glyph::starts(kind),
+            })
     }
 }
 
-fn is_fraction(name: &str) -> bool {
+/// Whether tokens are an amount or a matrix that is known.
+pub(super) fn is_readable(text: &str, tokens: &[Token], symbols: &PrintedSymbols) -> bool {
+    let end = tokens.last().map_or(0, |token| token.place.end);
+    let mut parser = Parser::new(text, tokens, end..end, symbols);
+    parser.formula().is_ok() && parser.at == tokens.len()
+}
+
+pub(super) fn is_fraction(name: &str) -> bool {
     FRACTIONS.contains(&name)
 }

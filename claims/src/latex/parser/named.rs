@@ -139,6 +139,11 @@ impl Parser<'_> {
             }
             let amount = self.group().and_then(Value::scalar);
             return match amount {
+                // `C_1 (a_2 C_2 + …)` is a cosine times a length, and no turn.
+                Ok(amount) if base == only_numbered && has_functions(&amount) => {
+                    self.at = start;
+                    None
+                }
                 Ok(amount) => {
                     let after = after.or_else(|| self.after_group());
                     Some(Ok((axis, amount, after)))
@@ -278,4 +283,11 @@ impl Parser<'_> {
         });
         Some(read.map(|formula| Expr { node: formula.node, place: place.clone() }))
     }
+}
+
+/// Whether sines or cosines stand in an amount.
+fn has_functions(formula: &Formula) -> bool {
+    let mut found = Vec::new();
+    formula.arguments(&mut found);
+    !found.is_empty()
 }

@@ -23,6 +23,7 @@ impl Parser<'_> {
             return Err(self.unexpected("a term"));
         };
         match &token.kind {
+            _ if self.starts_length() => self.length().map(Value::Scalar),
             Kind::Digit(_) | Kind::Mark('.') => {
                 let number = self.number()?;
                 self.powered_value(Value::Scalar(number))
@@ -109,10 +110,7 @@ impl Parser<'_> {
             Some(Kind::OpenBrace) => Kind::CloseBrace,
             _ => return Err(self.unexpected("a group")),
         };
-        if self.depth == DEEPEST {
-            return Err(Mistake::new(start, format!("more than {DEEPEST} groups within each other")));
-        }
-        self.depth += 1;
+        self.deeper()?;
         self.advance();
         let first = self.formula()?;
         let mut inside = first;
@@ -131,6 +129,16 @@ impl Parser<'_> {
         self.expect_closer(&closer)?;
         self.depth -= 1;
         Ok(inside.at(start.start..end))
+    }
+
+    /// One group deeper.
+    pub(super) fn deeper(&mut self) -> Result<(), Unreadable> {
+        if self.depth == DEEPEST {
+            let message = format!("more than {DEEPEST} groups within each other");
+            return Err(Mistake::new(self.here(), message));
+        }
+        self.depth += 1;
+        Ok(())
     }
 
     /// A group in braces, or a single digit or symbol: what TeX takes as an argument.

@@ -12,7 +12,7 @@ use std::ops::Range;
 use super::layout::Row;
 use super::parser::{Notes, Parser, Value};
 use super::token::{Kind, Token};
-use super::{PrintedMatrix, PrintedSymbols, Unreadable, naming};
+use super::{NameOf, PrintedMatrix, PrintedSymbols, Unreadable, naming};
 use model_core::expr::Expr;
 use model_core::mistake::Mistake;
 
@@ -27,7 +27,7 @@ type Formula = Expr<Range<usize>>;
 pub fn read_component(
     text: &str,
     symbols: &PrintedSymbols,
-    axis: Option<usize>,
+    name_of: NameOf,
 ) -> Result<(Formula, Notes), Unreadable> {
     let rows = rows(text, symbols)?;
     let [row] = rows.as_slice() else {
@@ -36,7 +36,7 @@ pub fn read_component(
             format!("{} formulas, where one component stands", rows.len()),
         ));
     };
-    naming::check(text, row, axis)?;
+    naming::check(text, row, name_of)?;
     let (value, notes) = value(text, row, symbols)?;
     Ok((value.scalar()?, notes))
 }
@@ -49,13 +49,13 @@ pub fn read_component(
 pub fn read_vector(
     text: &str,
     symbols: &PrintedSymbols,
-    axes: &[Option<usize>],
+    names: &[NameOf],
 ) -> Result<(Vec<Formula>, Notes), Unreadable> {
     let rows = rows(text, symbols)?;
     let alone = rows.len() == 1;
     let (mut components, mut notes) = (Vec::new(), Notes::default());
     for (at, row) in rows.iter().enumerate() {
-        naming::check(text, row, axes.get(at).copied().flatten().filter(|_| !alone))?;
+        naming::check(text, row, NameOf::in_row(names, at, alone))?;
         let (value, own) = value(text, row, symbols)?;
         notes.join(&own);
         match value {

@@ -1,44 +1,16 @@
 //! What print sets around formulas: numbers, dollars, punctuation, alignment, broken lines. It is taken away where it
 //! cannot be anything else, and refused where it could.
 
+mod environments;
+
 use std::ops::Range;
 
 use super::Unreadable;
 use super::token::{Kind, Token};
+use environments::is_display;
 use model_core::mistake::Mistake;
 
-/// Environments whose cells are entries of a matrix.
-pub(super) const MATRICES: [&str; 11] = [
-    "matrix",
-    "pmatrix",
-    "bmatrix",
-    "Bmatrix",
-    "vmatrix",
-    "smallmatrix",
-    "array",
-    "cases",
-    "dcases",
-    "rcases",
-    "drcases",
-];
-
-/// Environments that lay out formulas; a star may stand behind the name.
-const DISPLAYS: [&str; 14] = [
-    "equation",
-    "align",
-    "aligned",
-    "alignat",
-    "alignedat",
-    "IEEEeqnarray",
-    "subequations",
-    "gather",
-    "gathered",
-    "eqnarray",
-    "split",
-    "multline",
-    "flalign",
-    "displaymath",
-];
+pub(super) use environments::MATRICES;
 
 /// One formula of a text: what is named on the left of `=`, and the formula.
 #[derive(Debug)]
@@ -251,10 +223,6 @@ fn without_wide_spaces(tokens: &mut Vec<Token>) -> Result<(), Unreadable> {
     }
     tokens.retain(|token| token.kind != Kind::Wide);
     Ok(())
-}
-
-fn is_display(name: &str) -> bool {
-    DISPLAYS.contains(&name.trim_end_matches('*'))
 }
 
 /// `\begin{align} … \end{align}` around everything; an array of equations is one such, and so is the brace before or behind it.

@@ -87,7 +87,7 @@ impl Plan {
     /// Whether a component that a source observes has this key in `[observed]`.
     #[must_use]
     pub fn has_observed_key(&self, source: usize, key: &str) -> bool {
-        self.sources.get(source).is_some_and(|source| source.observed_keys.iter().any(|own| *own == key))
+        self.sources.get(source).is_some_and(|source| source.observed_keys.contains(&key))
     }
 
     /// The key in `[observed]` of a component that a source observes.

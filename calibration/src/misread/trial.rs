@@ -62,8 +62,6 @@ impl<'a> Trial<'a> {
         [hypothesis.changes.iter().any(is_joint), hypothesis.changes.iter().all(is_joint)]
     }
 
-    /// Whether a reading needs an error that is too large to be one, or leaves a large part of what was measured.
-
     /// The error that a reading needs and that is furthest beyond its limit.
     pub fn beyond(&self, score: &Score) -> Option<Implausible> {
         let (error, limit) = self.priors.beyond(&score.values)?;

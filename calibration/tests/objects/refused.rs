@@ -108,7 +108,7 @@ fn studies_that_cannot_be_meant_are_refused() {
             "no kind of object of this study is called `plane`",
         ),
         (good.clone() + "[next]\nobjects = { wal = 1 }\n", "there are `target`"),
-        (good.clone() + "[next]\nstations = 100\n", "stations from 0 to 20"),
+        (good.clone() + "[next]\nstations = 100\n", "write a number from 0 to 20"),
         (good.clone() + "[next]\nwalls = 1\n", "unknown key `walls`"),
         (good.clone() + "[next]\nplace = { x = [\"3 m\", \"1 m\"] }\n", "ends before it starts"),
         (good.clone() + "[next]\nplace = { w = [\"3 m\", \"4 m\"] }\n", "no coordinate of a place"),

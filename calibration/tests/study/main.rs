@@ -233,7 +233,7 @@ fn every_key_that_is_none_is_told_at_once() {
     let study = STUDY.replace("cross =", "corss =").replace("group =", "gruop =").replace("[fit]", "[fot]")
         + "sequence = \"yes\"\n";
     let told = refused(&study);
-    for part in ["corss", "gruop", "fot", "boolean"] {
+    for part in ["corss", "gruop", "fot", "write true or false"] {
         assert!(told.iter().any(|line| line.contains(part)), "{part}: {told:#?}");
     }
     assert_eq!(told.len(), 4, "nothing follows from a mistake that was told: {told:#?}");
@@ -330,7 +330,7 @@ fn a_search_that_would_not_fit_into_the_memory_is_refused_before_it_begins() {
     }
     assert_eq!(asked("memory = \"128 GiB\"", "harmonics = 400", "folds = 1000"), Ok(()));
     let why = asked("", "harmonics = 1000", "folds = 10").expect_err("beyond all");
-    assert!(why.contains("harmonics from 0 to 400"), "{why}");
+    assert!(why.contains("harmonics cannot be 1000; write a number from 0 to 400"), "{why}");
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod frame;
 mod hypotheses;
 mod policy;
 mod prior;
+mod scaled;
 mod score;
 mod size;
 mod states;
@@ -102,8 +103,11 @@ fn judgement(plan: &Plan, sample: &Sample) -> Option<Judgement> {
         }
     }
     let margin = best.score.total - as_read.total;
+    let top = best.score.total;
     readings.retain(|tried| explains(&trial, tried, &as_read));
-    let misread = told(&trial, readings, &as_read, margin);
+    // A scale that is off is an effect, and no misread column.
+    let is_no_scale = |_: &Misread| scaled::total(&trial).is_none_or(|scaled| top - scaled >= MARGIN);
+    let misread = told(&trial, readings, &as_read, margin).filter(is_no_scale);
     Some(Judgement { start: start.filter(|_| misread.is_none()), misread })
 }
 

@@ -57,6 +57,8 @@ pub(super) const MOST_TILT_RAD: f64 = PI / 36.0;
 pub(super) const MOST_LENGTH_SHARE: f64 = 0.1;
 pub(super) const MOST_RESIDUAL_SHARE: f64 = 0.03;
 
+/// A joint's scale may be off by this much: an effect that competes with misread columns.
+pub(super) const MOST_SCALE: f64 = 0.03;
 /// A turn by so much less or more than whole hours may be a clock's, rad: what the errors of an instrument add.
 pub(super) const CLOCK_RAD: f64 = PI / 360.0;
 /// Stations are not where a study roughly puts them where most are off by more than this, as a share of how far away objects are and in rad
@@ -242,6 +244,12 @@ pub const THRESHOLDS: &[Threshold] = &[
         TRIALS,
     ),
     Threshold::new("prior.beyond", BEYOND, "nats that an error beyond its limit costs a reading", FRAMED),
+    Threshold::new(
+        "misread.scale",
+        MOST_SCALE,
+        "how far off a joint's scale may be that explains what a misread column would",
+        "specification: a true scale of 2 % is no misread column; without it 1 of 70 clean files was called misread",
+    ),
     Threshold::new(
         "misread.clock_rad",
         CLOCK_RAD,

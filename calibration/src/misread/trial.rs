@@ -7,7 +7,7 @@ use fit::{FitOptions, Model, residuals};
 use nalgebra::UnitQuaternion;
 use network::place;
 use observe::Observations;
-use study::{Changed, Plan, Sample, SampledColumn};
+use study::{Change, Changed, Plan, Sample, SampledColumn};
 
 use super::hypotheses::{self, Hypothesis, QUARTERS, Reading, both, from_row};
 use super::policy::{FITTED, OBJECT_STEPS, PAIRED, PARTS, ROUGH_SHARE, SCREENED_STEPS};
@@ -60,6 +60,24 @@ impl<'a> Trial<'a> {
             own.is_some_and(|column| hypotheses::is_joint(self.plan, column))
         };
         [hypothesis.changes.iter().any(is_joint), hypothesis.changes.iter().all(is_joint)]
+    }
+
+    /// Which columns are readings of joints.
+    pub fn joints(&self) -> Vec<usize> {
+        let is_joint = |at: &usize| hypotheses::is_joint(self.plan, &self.columns[*at]);
+        (0..self.columns.len()).filter(is_joint).collect()
+    }
+
+    /// The score of the study's own reading with the numbers of one column multiplied; none of what observes unknown objects.
+    pub fn total_scaled(&self, column: usize, by: f64) -> Option<f64> {
+        let &SampledColumn { place, factor, .. } = self.columns.get(column)?;
+        let changes = [Changed::all(place, Change::Factor(factor * by))];
+        let observations = self.sample.observations(self.plan, &changes).ok()?;
+        if observations.unknowns.is_some() {
+            return None;
+        }
+        let steps = self.plan.fit.max_iterations;
+        self.score(&observations, &self.plan.fit.start, steps, None).map(|score| score.total)
     }
 
     /// The error that a reading needs and that is furthest beyond its limit.

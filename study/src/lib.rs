@@ -26,6 +26,7 @@ mod memory;
 mod mistakes;
 mod narrower;
 mod next;
+mod objects;
 mod observed;
 mod order;
 mod orientation;

@@ -250,9 +250,11 @@ impl<'a> Trial<'a> {
     /// A reading after a few steps, from the errors that the study starts from or from those found so far.
     fn screened(&self, hypothesis: Hypothesis, as_read: &Score) -> Option<Tried> {
         let observations = self.read(&hypothesis)?;
-        let from = |start| self.score(&observations, start, SCREENED_STEPS, Some(&hypothesis));
-        let scores = [from(self.plan.fit.start.as_slice()), from(&as_read.values)];
-        let score = scores.into_iter().flatten().max_by(|a, b| a.total.total_cmp(&b.total))?;
+        let from = |start: &[f64]| self.score(&observations, start, SCREENED_STEPS, Some(&hypothesis));
+        // Where the study's own reading is near, so are its errors: another start would only come to the same.
+        let start = as_read.is_off(ROUGH_SHARE).then_some(self.plan.fit.start.as_slice());
+        let scores = start.into_iter().chain([as_read.values.as_slice()]).filter_map(from);
+        let score = scores.max_by(|a, b| a.total.total_cmp(&b.total))?;
         Some(Tried { hypothesis, score, observations })
     }
 

@@ -9,7 +9,7 @@ use observe::Observations;
 use study::Plan;
 
 /// How far the sky turns in an hour, rad.
-const RAD_AN_HOUR: f64 = std::f64::consts::PI / 12.0;
+pub(super) const RAD_AN_HOUR: f64 = std::f64::consts::PI / 12.0;
 
 /// The key of an hour angle in `[observed]`.
 const HOUR_ANGLE: &str = "ha";

@@ -7,8 +7,12 @@ use super::trial::Trial;
 const TRIED: [f64; 8] = [-1.0, -0.5, -0.25, -0.1, 0.1, 0.25, 0.5, 1.0];
 const THIRDS: usize = 12;
 
-/// The best score with the scale of one joint as another number to be estimated, its price counted; `None` without joints.
+/// The best score with the scale of one joint as another number to be estimated, its price counted; `None` without joints, and where rows
+/// observe unknown objects.
 pub(super) fn total(trial: &Trial<'_>) -> Option<f64> {
+    if trial.own.unknowns.is_some() {
+        return None;
+    }
     let joints = trial.joints();
     let price = 0.5 * (trial.own.rows() as f64).ln() + (joints.len().max(1) as f64).ln();
     let of_joint = |joint: &usize| {

@@ -107,8 +107,8 @@ pub(super) fn score(
         log += log_density(own, width);
         scale += width.ln() * own.len() as f64 / numbers as f64;
     }
-    let stations = written(plan, hypothesis);
-    let strayed = observations.unknowns.as_ref().and_then(|own| strayed(&stations, own, &fit.values));
+    let unknowns = observations.unknowns.as_ref();
+    let strayed = unknowns.and_then(|own| strayed(&written(plan, hypothesis), own, &fit.values));
     let penalty = priors.penalty(&fit, strayed.is_some());
     let free = (numbers as f64 - fit.rank as f64).max(1.0);
     let (_, _, rows_of_first) = units.into_iter().next()?;

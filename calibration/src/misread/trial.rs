@@ -68,14 +68,11 @@ impl<'a> Trial<'a> {
         (0..self.columns.len()).filter(is_joint).collect()
     }
 
-    /// The score of the study's own reading with the numbers of one column multiplied; none of what observes unknown objects.
+    /// The score of the study's own reading with the numbers of one column multiplied.
     pub fn total_scaled(&self, column: usize, by: f64) -> Option<f64> {
         let &SampledColumn { place, factor, .. } = self.columns.get(column)?;
         let changes = [Changed::all(place, Change::Factor(factor * by))];
         let observations = self.sample.observations(self.plan, &changes).ok()?;
-        if observations.unknowns.is_some() {
-            return None;
-        }
         let steps = self.plan.fit.max_iterations;
         self.score(&observations, &self.plan.fit.start, steps, None).map(|score| score.total)
     }

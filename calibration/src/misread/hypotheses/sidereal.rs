@@ -6,10 +6,11 @@ use std::f64::consts::PI;
 use model_core::Quantity;
 
 use super::{Hypothesis, Reading, Tried, names};
+use crate::misread::clock::RAD_AN_HOUR;
 use study::{Change, Changed, SampledColumn};
 
 /// Units of sidereal times: hours and degrees, each with a turn.
-const UNITS: [(f64, f64); 2] = [(PI / 12.0, 24.0), (PI / 180.0, 360.0)];
+const UNITS: [(f64, f64); 2] = [(RAD_AN_HOUR, 24.0), (PI / 180.0, 360.0)];
 
 pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
     let angles = |columns: &[&'_ SampledColumn]| -> Vec<usize> {

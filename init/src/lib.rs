@@ -67,6 +67,8 @@ pub struct Draft {
     inputs: Vec<String>,
     /// Whether the rows follow each other as they were taken, so that the sense of a motion is seen.
     is_in_order: bool,
+    /// Why these rows begin nothing as the headers have them; a reading that explains them may.
+    pub unfollowed: Option<String>,
     /// What the user should know of it.
     pub remarks: Vec<String>,
 }

@@ -343,6 +343,7 @@ pub fn draft(description: &Description, tip: Option<&str>, look: &Look) -> Resul
         start,
         inputs: Vec::new(),
         is_in_order: false,
+        unfollowed: None,
         remarks,
     })
 }

@@ -19,7 +19,7 @@ pub struct Begun {
 /// the study reads it otherwise; where they do not say which, it asks.
 ///
 /// # Errors
-/// The chain, the study or the data cannot be read again.
+/// The chain, the study or the data cannot be read again; or the true directions do not follow the readings, however they are read.
 pub fn begun(draft: &Draft, look: &Look, names: Names<'_>, open: &mut Open<'_>) -> Result<Begun, NotBegun> {
     let (mut study, mut remarks) = (init::study(draft, look, names), draft.remarks.clone());
     let held = init::hold(draft, &study, open)?;
@@ -28,6 +28,8 @@ pub fn begun(draft: &Draft, look: &Look, names: Names<'_>, open: &mut Open<'_>) 
         study = init::otherwise(&study, &said, &lines);
         init::hold(draft, &study, open)?;
         remarks.push(said.join(" "));
+    } else if let Some(why) = &draft.unfollowed {
+        return Err(why.clone().into());
     }
     Ok(Begun { study, remarks, doubtful: held.doubtful })
 }

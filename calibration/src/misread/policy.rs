@@ -72,7 +72,7 @@ pub(super) const BEYOND: f64 = 20.0;
 /// They bound work.
 pub(super) const FITTED: usize = 9;
 pub(super) const PARTS: usize = 3;
-pub(super) const SCREENED_STEPS: usize = 4;
+pub(super) const SCREENED_STEPS: usize = 2;
 /// Steps of a fit beside unknown objects: a right reading is there by then, a wrong one need not be.
 pub(super) const OBJECT_STEPS: usize = 30;
 /// Single mistakes of each stage, the best first, beside which a second one is tried.

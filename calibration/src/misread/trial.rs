@@ -125,8 +125,8 @@ impl<'a> Trial<'a> {
         if self.own.unknowns.is_some() {
             return self.nearest(all);
         }
-        let mut screened: Vec<Tried> =
-            all.into_iter().filter_map(|hypothesis| self.screened(hypothesis, as_read)).collect();
+        let screened = |hypothesis| self.screened(hypothesis, as_read);
+        let mut screened: Vec<Tried> = parallel::each_of(all, screened).into_iter().flatten().collect();
         screened.extend(self.of_rows(&screened, as_read));
         best_first(&mut screened);
         let mut finalists = self.to_the_end(&screened);
@@ -181,7 +181,8 @@ impl<'a> Trial<'a> {
             let score = self.score(&observations, &score.values, steps, Some(&hypothesis))?;
             Some(Tried { hypothesis, score, observations })
         };
-        let mut finalists: Vec<Tried> = screened.iter().take(FITTED).filter_map(fitted).collect();
+        let nearest: Vec<&Tried> = screened.iter().take(FITTED).collect();
+        let mut finalists: Vec<Tried> = parallel::each_of(nearest, fitted).into_iter().flatten().collect();
         best_first(&mut finalists);
         finalists
     }

@@ -58,7 +58,6 @@ fn what_cannot_be_begun_is_refused_with_words_and_nothing_is_written() {
         ("two", "az_1,az_2,el,y,z", &["--template", "alt-azimuth"], "could each be meant"),
         ("missing", "az,tilt,x,y,z", &["--template", "alt-azimuth"], "no column for the elevation"),
         ("other", "az,el,x,y,z", &["--template", "arm"], "0 columns of joints"),
-        ("sideways", "el,az,x,y,z", &[], "do not follow"),
         ("misspelt", "az,el,x,y,z", &["--template", "alt-azimut"], "alt-azimuth"),
         ("itself", "az,el,x,y,z", &["--out", "m.chain"], "is where the chain goes"),
         ("nowhere", "az,el,x,y,z", &["--out", "no/m.toml"], "cannot write"),

@@ -8,7 +8,7 @@ use testkit::Random;
 use crate::support::Folder;
 
 /// Directions of a telescope in azimuth and elevation, rad, with tilts and noise of arcseconds.
-fn rows(each: impl Fn(f64, f64) -> [f64; 2]) -> String {
+fn rows(mut each: impl FnMut(f64, f64) -> [f64; 2]) -> String {
     let random = &mut Random::new(411);
     let mut text = String::from("azimuth,elevation,x,y,z\n");
     for _ in 0..60 {
@@ -48,4 +48,25 @@ fn columns_that_are_what_they_say_are_left_alone() {
     let run = folder.trueaxis(&["init", "d.csv"]);
     assert_eq!(run.code, 0, "{run}");
     assert!(!run.stderr.contains("written so") && !folder.read("d.toml").contains("gon"), "{run}");
+}
+
+#[test]
+fn exchanged_headings_are_read_right_though_directions_do_not_follow_them() {
+    let folder = Folder::new("init-exchanged");
+    folder.write("d.csv", rows(|azimuth, elevation| [elevation, azimuth].map(f64::to_degrees)));
+    let run = folder.trueaxis(&["init", "d.csv"]);
+    assert_eq!(run.code, 0, "{run}");
+    assert!(run.stderr.contains("exchanged") && run.stderr.contains("The study is written so."), "{run}");
+    let run = folder.trueaxis(&["calibrate", "d.toml"]);
+    assert!(run.code == 0 && !run.stdout.contains("COLUMN"), "{run}");
+}
+
+#[test]
+fn directions_that_follow_the_readings_in_no_way_begin_nothing() {
+    let folder = Folder::new("init-scattered");
+    let random = &mut Random::new(97);
+    folder.write("d.csv", rows(|_, _| [360.0 * random.even(), 80.0 * random.even()]));
+    let run = folder.trueaxis(&["init", "d.csv"]);
+    assert!(run.code == 2 && run.stderr.contains("do not follow"), "{run}");
+    assert_eq!(folder.names(), ["d.csv"]);
 }

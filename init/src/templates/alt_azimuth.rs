@@ -20,9 +20,9 @@ fn draft(look: &Look) -> Result<Draft, String> {
     let joints = look.angles(&[azimuth, elevation], &mut remarks)?;
     let sides = [&[Part::Azimuth][..], &[Part::Elevation]];
     let observed = Observed::direction(look, sides, ["azimuth", "elevation"], &mut remarks)?;
-    let frame = match observed.vectors() {
-        Some(vectors) => shown(look, Frame::seen(&joints[0], &joints[1], &vectors), "azimuth and elevation")?,
-        None => Frame::USUAL,
+    let (frame, unfollowed) = match observed.vectors() {
+        Some(vectors) => shown(look, Frame::seen(&joints[0], &joints[1], &vectors), "azimuth and elevation"),
+        None => (Frame::USUAL, None),
     };
     let beside = Beside::of(look);
     let names = ["azimuth".to_owned(), "elevation".to_owned()];
@@ -36,6 +36,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         start: frame.starts(["azimuth_index", "elevation_index"]),
         inputs: beside.names,
         is_in_order: false,
+        unfollowed,
         remarks,
     })
 }

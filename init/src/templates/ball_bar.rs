@@ -112,6 +112,7 @@ chain BallBar {{
         start: Vec::new(),
         inputs: beside.names,
         is_in_order,
+        unfollowed: None,
         remarks,
     })
 }

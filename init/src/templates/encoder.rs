@@ -34,7 +34,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
     };
     let mut read = look.angles(&[reading, truth], &mut remarks)?;
     let (Some(truth), Some(joint)) = (read.pop(), read.pop()) else { unreachable!("two columns were read") };
-    let frame = shown(look, Frame::following(&joint, &truth), "the encoder")?;
+    let (frame, unfollowed) = shown(look, Frame::following(&joint, &truth), "the encoder");
     let beside = Beside::of(look);
     Ok(Draft {
         chain: chain(&frame, &beside.statements),
@@ -46,6 +46,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         start: frame.starts(["index", ""]),
         inputs: beside.names,
         is_in_order: false,
+        unfollowed,
         remarks,
     })
 }

@@ -20,11 +20,11 @@ fn draft(look: &Look) -> Result<Draft, String> {
     let joints = look.angles(&[ha, dec], &mut remarks)?;
     let sides = [&[Part::HourAngle][..], &[Part::Declination]];
     let observed = Observed::direction(look, sides, ["ha", "dec"], &mut remarks)?;
-    let frame = match observed.vectors() {
+    let (frame, unfollowed) = match observed.vectors() {
         Some(vectors) => {
-            shown(look, Frame::seen(&joints[0], &joints[1], &vectors), "hour angle and declination")?
+            shown(look, Frame::seen(&joints[0], &joints[1], &vectors), "hour angle and declination")
         }
-        None => Frame::USUAL,
+        None => (Frame::USUAL, None),
     };
     let mut beside = Beside::of(look);
     let pier = look.reading(&[Part::Pier])?.filter(|pier| pier.values().iter().all(|side| side.abs() == 1.0));
@@ -59,6 +59,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         start,
         inputs: beside.names,
         is_in_order: false,
+        unfollowed,
         remarks,
     })
 }

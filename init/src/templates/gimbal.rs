@@ -22,9 +22,9 @@ fn draft(look: &Look) -> Result<Draft, String> {
     let joints = look.angles(&all, &mut remarks)?;
     let sides = [&[Part::Pan, Part::Azimuth][..], &[Part::Tilt, Part::Elevation]];
     let observed = Observed::direction(look, sides, ["azimuth", "elevation"], &mut remarks)?;
-    let frame = match observed.vectors() {
-        Some(vectors) => shown(look, Frame::seen(&joints[0], &joints[1], &vectors), "pan and tilt")?,
-        None => Frame::USUAL,
+    let (frame, unfollowed) = match observed.vectors() {
+        Some(vectors) => shown(look, Frame::seen(&joints[0], &joints[1], &vectors), "pan and tilt"),
+        None => (Frame::USUAL, None),
     };
     let beside = Beside::of(look);
     let names = ["pan".to_owned(), "tilt".to_owned(), "roll".to_owned()];
@@ -38,6 +38,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         start: frame.starts(["pan_index", "tilt_index"]),
         inputs: beside.names,
         is_in_order: false,
+        unfollowed,
         remarks,
     })
 }

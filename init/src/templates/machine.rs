@@ -52,6 +52,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         start,
         inputs: beside.names,
         is_in_order: false,
+        unfollowed: None,
         remarks,
     })
 }

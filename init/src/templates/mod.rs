@@ -82,13 +82,14 @@ impl Beside {
     }
 }
 
-/// A frame that the rows show, or why they show none.
-fn shown(look: &Look, frame: Option<Frame>, what: &str) -> Result<Frame, String> {
-    frame.ok_or_else(|| {
+/// A frame that the rows show, else the usual one, and why they show none.
+fn shown(look: &Look, frame: Option<Frame>, what: &str) -> (Frame, Option<String>) {
+    let why = || {
         format!(
             "{}: the true directions do not follow the readings of {what}: are the columns, their units and the template \
              right?",
             look.file
         )
-    })
+    };
+    (frame.unwrap_or(Frame::USUAL), frame.is_none().then(why))
 }

@@ -70,6 +70,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         start: Vec::new(),
         inputs: beside.names,
         is_in_order: false,
+        unfollowed: None,
         remarks,
     })
 }

@@ -34,7 +34,8 @@ fn draft(look: &Look) -> Result<Draft, String> {
     let vectors = observed.vectors().ok_or_else(|| {
         format!("{}: a table's pointer is told by x, y, z of a unit vector, not by offsets", look.file)
     })?;
-    let frame = shown(look, joints.first().and_then(|joint| Frame::turning(joint, &vectors)), "the table")?;
+    let (frame, unfollowed) =
+        shown(look, joints.first().and_then(|joint| Frame::turning(joint, &vectors)), "the table");
     let beside = Beside::of(look);
     Ok(Draft {
         chain: chain(&frame, &beside.statements),
@@ -46,6 +47,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         start: frame.starts(["index", "rise"]),
         inputs: beside.names,
         is_in_order: false,
+        unfollowed,
         remarks,
     })
 }

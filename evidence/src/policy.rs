@@ -106,6 +106,14 @@ policy! {
     harmonics = 6.0, "prototype of the directions";
     /// Highest order of a harmonic about the joint's own axis.
     harmonics_own = 40.0, "prototype: gears of 9 to 36 teeth";
+    /// Highest order about the joint's own axis that is looked for blind.
+    orders_own = 5000.0, "worm wheels have up to 720 teeth, motors of drives of 1:160 several waves a turn";
+    /// Gain beyond its price at which a wave that was found blind competes, nats.
+    wave_offered = 2.0, "160 simulated studies without a wave: none offered that was told; waves of half the noise in 200 rows gain 20";
+    /// Waves that are looked for blind one after another, at most.
+    waves_found = 3.0, "bounds work: a worm wheel has its order, twice it, and a gear before it";
+    /// Waves of other orders that compete with each, at most.
+    waves_near = 4.0, "bounds work: orders that look alike on a grid of readings come in pairs";
     /// Highest order in a smooth function of a joint.
     harmonics_smooth = 14.0, "prototype of the directions";
     /// Highest order of each joint in a surface of two.

@@ -13,9 +13,10 @@ use crate::contest::Hypothesis;
 use crate::diagnose::Rms;
 use crate::diagnose::rms::share;
 use crate::search::SearchError;
-use crate::search::context::Context;
+use crate::search::context::{Context, Found};
 use crate::search::library::AsGood;
 use crate::search::round::Round;
+use effects::families::HIGH_HARMONIC;
 use fit::FitResult;
 use study::Plan;
 
@@ -38,7 +39,7 @@ const SEVERAL: usize = 3;
 
 /// Effects beyond which the catalogue has named nothing: it follows the data with whatever it has, and a function more is one of
 /// many.
-const NAMED: usize = 10;
+pub(super) const NAMED: usize = 10;
 
 /// Functions that are tried at most where the study does not ask for them: each costs as much time as the search before it.
 const TRIED: usize = 2;
@@ -99,6 +100,21 @@ fn judge<'a>(settled: Settled<'a>, before: &FitResult) -> Result<Chosen<'a>, Sea
     let judged = judged(&whole, before, round)?;
     let as_good = if judged.left_out.is_empty() { as_good } else { Vec::new() };
     Ok(Chosen { as_good, ..Chosen::of(whole, judged) })
+}
+
+/// Whether a search that knew of more waves found one, and predicts better with it: in random folds, and no worse in regions that it did
+/// not see.
+pub(super) fn has_won(told: &Chosen<'_>, with_waves: &Chosen<'_>) -> bool {
+    let is_wave = |found: &Found| with_waves.whole.catalogue[found.effect].family == HIGH_HARMONIC;
+    let ratio = |of: fn(&Rms) -> Option<f64>| share(&with_waves.judged.rms, &told.judged.rms, of);
+    let kept = match told.whole.request.second {
+        None => ratio(|rms| rms.held_out_rms_kept),
+        Some(_) => None,
+    };
+    with_waves.judged.left_out.is_empty()
+        && with_waves.judged.round.fitted.found.iter().any(is_wave)
+        && kept.is_none_or(|ratio| ratio < 1.0)
+        && ratio(|rms| rms.elsewhere_rms_kept).is_none_or(|ratio| ratio <= NO_WORSE)
 }
 
 /// Whether the model with functions predicts better: in random folds by a margin, and no worse in regions that its search did

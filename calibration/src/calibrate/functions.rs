@@ -8,11 +8,12 @@ use crate::search::Request;
 use crate::search::SearchError;
 use crate::search::context::{Context, Found};
 use crate::search::fitted::Fitted;
-use crate::search::library::{AsGood, ShapeKind, Taken, contest};
+use crate::search::library::{AsGood, Shape, ShapeKind, Taken, contest};
 use crate::search::round::Round;
-use effects::candidate::{Effect, EffectId, Function};
+use effects::candidate::{Dependence, Effect, EffectId, Function, Place};
 use effects::families::{HIGH_HARMONIC, SHAPE};
 use fit::Outcome;
+use model_core::SymbolId;
 use study::Plan;
 
 /// Functions that one calibration takes up at most.
@@ -104,12 +105,18 @@ pub(super) fn settled<'a>(
 /// The study with a function as an effect of its own, and the effect's name; `None` where the chain has no room for it.
 fn with_function(plan: &Plan, taken: &Taken) -> Option<(Plan, String)> {
     let mut plan = plan.clone();
-    let amounts = taken.shape.amounts(&mut plan.chain, taken.driver)?;
+    let name = add_function(&mut plan, taken.place, taken.driver, &taken.shape)?;
+    Some((plan, name))
+}
+
+/// Makes a function an effect of the study's own, and gives the effect's name; `None` where the chain has no room for it.
+pub(super) fn add_function(plan: &mut Plan, place: Place, driver: SymbolId, shape: &Shape) -> Option<String> {
+    let amounts = shape.amounts(&mut plan.chain, driver)?;
     plan.fit.start.resize(plan.chain.symbols.len(), 0.0);
-    let driver = plan.chain.symbol(taken.driver);
-    let body = &plan.chain.body(taken.place.body).name;
-    let (kind, freedom) = (taken.shape.kind(), taken.place.freedom);
-    let words = taken.shape.words(driver.quantity);
+    let driver = plan.chain.symbol(driver);
+    let body = &plan.chain.body(place.body).name;
+    let (kind, freedom) = (shape.kind(), place.freedom);
+    let words = shape.words(driver.quantity);
     let name = format!("{words} of {} in {body} {}", driver.name, freedom.words());
     let stem = format!("{}_{}_{body}", kind.stem(), driver.name);
     let several = amounts.len() > 1;
@@ -121,15 +128,19 @@ fn with_function(plan: &Plan, taken: &Taken) -> Option<(Plan, String)> {
         };
         Function::new(amount, format!("{stem}{number}"))
     });
+    let (family, form) = match kind {
+        ShapeKind::Harmonic(order) => (HIGH_HARMONIC, Dependence::Harmonic { order }),
+        _ => (SHAPE, kind.words().into()),
+    };
     let effect = Effect {
         bends: None,
-        family: if matches!(kind, ShapeKind::Harmonic(_)) { HIGH_HARMONIC } else { SHAPE },
+        family,
         name: name.clone(),
-        place: taken.place,
+        place,
         functions: functions.collect(),
         driver: driver.name.clone(),
-        form: kind.words().into(),
+        form,
     };
     plan.search.own.push(effect);
-    Some((plan, name))
+    Some(name)
 }

@@ -19,6 +19,7 @@ mod heard;
 pub(crate) mod held_out;
 mod ladder;
 mod memory;
+mod orders;
 mod outliers;
 mod places;
 mod rounds;
@@ -173,8 +174,8 @@ fn of_request(
     let observables: Vec<_> =
         request.observations.poses.series.iter().map(|series| series.observable).collect();
     check_scale_of_ranges(&request.plan.chain, request.observations, &request.plan.fit)?;
-    let loops = [Loop::default(), Loop::default()];
-    let (by_place, by_stretch) = (OnceCell::new(), OnceCell::new());
+    let loops = [Loop::default(), Loop::default(), Loop::default()];
+    let (by_place, by_stretch, by_wave) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
     let whole = Context { tell, ..Context::new(request, &observables, HELD)? };
 
     let (whole, first) = places::grouped(whole, &by_place)?;
@@ -203,11 +204,18 @@ fn of_request(
         Chosen::of(whole.clone(), judged(&whole, &before, round)?)
     } else {
         let found = searched(&whole, &before, round, &loops[0])?;
-        match stretches::grouped(whole, &found, &by_stretch)? {
+        let found = match stretches::grouped(whole, &found, &by_stretch)? {
             None => found,
             Some((whole, first)) => {
                 before = first.fit.clone();
                 searched(&whole, &before, Round::at(&whole, first)?, &loops[1])?
+            }
+        };
+        match orders::offered(&found, &by_wave)? {
+            None => found,
+            Some((whole, first)) => {
+                let with_waves = searched(&whole, &before, Round::at(&whole, first)?, &loops[2])?;
+                if choice::has_won(&found, &with_waves) { with_waves } else { found }
             }
         }
     };

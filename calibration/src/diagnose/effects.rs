@@ -12,11 +12,13 @@ use super::rms::observables_of;
 use super::units::unit_of;
 use crate::search::context::{Context, Found};
 use crate::search::fitted::Fitted;
+use crate::search::orders::aliases;
 use crate::search::round::Round;
 use crate::search::state::State;
 use crate::search::{AS_GOOD, CompetingModel, SetColumns, SetId, competing_models};
 use effects::candidate::{Dependence, Effect, EffectId};
-use effects::families::{FAMILIES, SHAPE};
+use effects::families::{FAMILIES, HIGH_HARMONIC, SHAPE};
+use evidence::Policy;
 use observe::SiUnit;
 
 /// Units of log-likelihood behind the best within which an explanation is kept in view when poses are chosen.
@@ -40,6 +42,9 @@ pub struct EffectFound {
     pub driver: String,
     /// How it follows that.
     pub form: Dependence,
+    /// Of a wave that was found blind, other numbers of periods a turn that look the same at these readings.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub alias_orders: Vec<u32>,
     /// What it may be called.
     pub names: Vec<String>,
     /// Effects that no data at these poses could tell from it.
@@ -218,6 +223,7 @@ pub(super) fn effects(
                 bends: effect.bends.as_ref().map(|bends| chain.observable(bends.observable).name.clone()),
                 driver: effect.driver.clone(),
                 form: effect.form.clone(),
+                alias_orders: alias_orders(whole, effect),
                 names: names(whole, effect, found.effect, &others.alike),
                 confounded_with: others
                     .alike
@@ -251,6 +257,20 @@ pub(super) fn effects(
             }
         })
         .collect()
+}
+
+/// Numbers of periods a turn that look like those of a wave that was found blind; none of other effects.
+fn alias_orders(whole: &Context<'_>, effect: &Effect) -> Vec<u32> {
+    let Dependence::Harmonic { order } = effect.form else { return Vec::new() };
+    let joints = whole.setting.joints();
+    let driver = joints.iter().find(|joint| whole.setting.name(joint.symbol) == effect.driver);
+    let readings = driver.and_then(|joint| whole.request.observations.poses.column(joint.symbol));
+    match readings {
+        Some(readings) if effect.family == HIGH_HARMONIC => {
+            aliases(readings, order, Policy::default().orders_own as u32)
+        }
+        _ => Vec::new(),
+    }
 }
 
 /// Its own name, those of its set at the same place (the same function by another name), and those of other fields.

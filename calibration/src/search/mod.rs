@@ -8,7 +8,7 @@
 //! The pipeline reads from one place: deal groups to folds (`folds`), merge rows where they are many (`filling` of
 //! `cells`, `chunk` by chunk), project (`problem`), merge what coincides (`confounded`), test
 //! (`tail`, `flips`), select (`select`, within what `guards` allow), name the competing models (`competing`), confirm on held-out folds
-//! (`nested`) and elsewhere (`elsewhere`), let a memory of the noise (`memory`) and a library of shapes (`library`) compete, and look for structure that no candidate explains (`remains`, `scan`, `contest`).
+//! (`nested`) and elsewhere (`elsewhere`), let a memory of the noise (`memory`), fine waves (`orders`) and a library of shapes (`library`) compete, and look for structure that no candidate explains (`remains`, `scan`, `contest`).
 
 mod apart;
 pub(crate) mod aside;
@@ -31,6 +31,7 @@ pub mod likelihood;
 pub(crate) mod memory;
 mod modest;
 pub mod nested;
+pub(crate) mod orders;
 pub mod problem;
 pub(crate) mod products;
 pub mod reach;

@@ -77,13 +77,16 @@ fn a_step_and_a_saturating_ramp_are_named() {
     assert!(name.starts_with("ramp from "), "{name}");
 }
 
-/// As large as the noise, seventeen times a turn, where the catalogue goes to eight.
+/// As large as the noise, where the catalogue goes to eight a turn: a gear, and a worm beyond it.
 #[test]
-fn a_harmonic_that_nobody_asked_for_is_named() {
-    let found = taken_up("beta", ["high harmonic", "cos(17*beta)"], |[_, beta, ..]| {
-        2.0 * ARCSEC * std::f64::consts::SQRT_2 * (17.0 * beta + 0.4).cos()
-    });
-    let name = &found.diagnosis.effects[0].names[0];
-    assert!(name.starts_with("harmonic, 17 per turn"), "{name}");
-    assert!(matches!(found.diagnosis.verdict, Verdict::Explained | Verdict::Confounded), "{name}");
+fn waves_that_nobody_asked_for_are_named() {
+    for order in [17, 360] {
+        let found = taken_up("beta", ["high harmonic", &format!("cos({order}*beta)")], |[_, beta, ..]| {
+            2.0 * ARCSEC * std::f64::consts::SQRT_2 * (f64::from(order) * beta + 0.4).cos()
+        });
+        let effect = &found.diagnosis.effects[0];
+        assert!(effect.names[0].starts_with(&format!("harmonic, {order} per turn")), "{:?}", effect.names);
+        assert!(effect.alias_orders.is_empty(), "{:?}", effect.alias_orders);
+        assert!(matches!(found.diagnosis.verdict, Verdict::Explained | Verdict::Confounded), "{order}");
+    }
 }

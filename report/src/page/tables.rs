@@ -60,6 +60,7 @@ fn effect_card(effect: &EffectFound, diagnosis: &Diagnosis) -> Markup {
         section.card style="margin-top:14px" {
             h3 { (headline) }
             p.quiet { (words::sentence_case(&words::place(effect, diagnosis))) "." }
+            @if let Some(alike) = words::look_alike(effect) { p.quiet { (alike) } }
             (scrolled(&format!("Possible causes: {headline}"), &html! {
                 table.stack role="table" {
                     thead role="rowgroup" {

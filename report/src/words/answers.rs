@@ -3,7 +3,7 @@
 use super::better::better;
 use super::causes::{body_in_words, each_once, sentence_case};
 use super::columns::{self, implausible_values, misread};
-use super::effects::{chance_of_all, headline, moves, place};
+use super::effects::{chance_of_all, headline, look_alike, moves, place};
 use super::frozen::fitted;
 use super::ladder::goal;
 use super::left::function_form;
@@ -84,7 +84,10 @@ pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>, command: &str) -> An
                 )
             })
             .collect(),
-        (true, _) => effects.iter().map(|effect| headline(effect)).collect(),
+        (true, _) => {
+            let told = |effect: &&EffectFound| [Some(headline(effect)), look_alike(effect)];
+            effects.iter().flat_map(told).flatten().collect()
+        }
     };
     Answers {
         tone: tone(diagnosis),

@@ -119,6 +119,11 @@ fn times_a_turn(order: &str) -> String {
     }
 }
 
+/// Degrees to four decimals, without zeros at the end.
+fn degrees(value: f64) -> String {
+    format!("{value:.4}").trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
 /// How an effect follows what drives it: `once per turn of beta`, `in proportion to temperature`.
 #[must_use]
 pub fn form(form: &Dependence, driver: &str) -> String {
@@ -131,7 +136,9 @@ pub fn form(form: &Dependence, driver: &str) -> String {
     let told = match form {
         Dependence::Harmonic { order: 1 } => format!("once per turn of {driver}"),
         Dependence::Harmonic { order: 2 } => format!("twice per turn of {driver}"),
-        Dependence::Harmonic { order } => format!("{order} times per turn of {driver}"),
+        Dependence::Harmonic { order } => {
+            format!("{order} times per turn of {driver} (every {} deg)", degrees(360.0 / f64::from(*order)))
+        }
         Dependence::Linear => format!("in proportion to {driver}"),
         Dependence::Constant => "always the same".to_owned(),
         Dependence::Described(other) => match other.strip_prefix("gravity ") {

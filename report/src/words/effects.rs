@@ -34,6 +34,22 @@ pub fn headline(effect: &EffectFound) -> String {
     )
 }
 
+/// Waves that look the same: `At these readings, waves of 53, 91 and 125 times per turn and 135 more look the same.`
+#[must_use]
+pub fn look_alike(effect: &EffectFound) -> Option<String> {
+    let (told, others) = effect.alias_orders.split_at(effect.alias_orders.len().min(NAMED));
+    let told: Vec<String> = told.iter().map(u32::to_string).collect();
+    let told = match told.as_slice() {
+        [] => return None,
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    };
+    let more = if others.is_empty() { String::new() } else { format!(" and {} more", others.len()) };
+    Some(format!(
+        "At these readings, waves of {told} times per turn{more} look the same. Measure between them to decide."
+    ))
+}
+
 /// `about x`, `along z`, `about x and y`.
 fn axis(dof: &str) -> String {
     let words: Vec<&str> = dof.split(", ").collect();

@@ -32,7 +32,7 @@ pub use causes::{cause, form, sentence_case};
 pub use cautions::caution;
 pub use columns::asked;
 pub use components::{component_in_words, side};
-pub use effects::{bias, chance_of, evidence, headline, motion, place};
+pub use effects::{bias, chance_of, evidence, headline, look_alike, motion, place};
 pub use errors::{EstimateLine, Estimates, estimates, not_shown as errors_not_shown, wanted_not_shown};
 pub use hidden::{fate, size};
 pub use ladder::{ModelLine, SIMPLEST, Stage, missing_models, models, stages};

@@ -27,10 +27,6 @@ const ENDS: usize = 12;
 const PERIODS: std::ops::RangeInclusive<u32> = 1..=8;
 const PHASES: u32 = 8;
 
-/// The highest harmonic that is looked for, and different readings for each of its periods.
-const HIGHEST: u32 = 40;
-const FOR_A_PERIOD: f64 = 4.0;
-
 /// Stretches of tables.
 const STRETCHES: [usize; 4] = [4, 8, 16, 24];
 
@@ -72,15 +68,6 @@ impl Driver {
     /// Whether the readings are enough for a table of so many stretches.
     pub fn resolves(&self, stretches: usize) -> bool {
         self.different >= FOR_A_KNOT * stretches
-    }
-
-    /// Harmonics beyond one that the readings tell apart.
-    pub fn harmonics(&self, beyond: u32) -> impl Iterator<Item = Shape> + use<> {
-        let turns = if self.turns { self.span() / TAU } else { 0.0 };
-        // At fewer readings in even steps another order looks the same.
-        let most = (self.different as f64 / FOR_A_PERIOD / turns.max(f64::MIN_POSITIVE)) as u32;
-        let first = beyond.max(if turns > 0.0 { (1.0 / turns).ceil() as u32 } else { HIGHEST });
-        (first + 1..=HIGHEST.min(most)).map(|order| Shape::Harmonic { order })
     }
 
     /// Shapes of one function each, with their thresholds on the grid.

@@ -218,7 +218,6 @@ impl Library<'_, '_> {
                 .filter(|&stretches| driver.resolves(stretches))
                 .map(|of| Shape::Table { knots: (0..=of).map(|i| at(i as f64 / of as f64)).collect() }),
         );
-        shapes.extend(driver.harmonics(self.whole.setting.harmonics));
         let parts: Vec<Mat<f64>> = shapes.iter().map(|shape| shape.values(readings)).collect();
         let mut blocks = Vec::new();
         let mut values = Mat::zeros(readings.len(), parts.iter().map(Mat::ncols).sum());
@@ -274,29 +273,12 @@ impl Library<'_, '_> {
         let single = starts
             .into_iter()
             .map(|(_, shape)| refined(shape, driver, step, &gain, column).0.rounded(driver.span()));
-        // Of the harmonics the one that explains most.
-        let harmonic = driver
-            .harmonics(self.whole.setting.harmonics)
-            .map(|shape| {
-                let columns = column(&shape);
-                (gain.of(columns.col_as_slice(0)) + gain.of(columns.col_as_slice(1)), shape)
-            })
-            .max_by(|a, b| a.0.total_cmp(&b.0))
-            .map(|(_, shape)| shape);
-        let several = driver.several().into_iter().map(|shape| shape.rounded(driver.span())).chain(harmonic);
+        let several = driver.several().into_iter().map(|shape| shape.rounded(driver.span()));
         single
             .chain(several)
             .map(|shape| {
-                // Which harmonic it is was a choice as well, as thresholds are.
-                let orders = match shape {
-                    Shape::Harmonic { .. } => driver.harmonics(self.whole.setting.harmonics).count(),
-                    _ => 1,
-                };
-                let price = Price {
-                    sets: self.last.sets.len(),
-                    functions: places * orders,
-                    parameters: shape.parameters(),
-                };
+                let price =
+                    Price { sets: self.last.sets.len(), functions: places, parameters: shape.parameters() };
                 let fitted = contender(&self.left, column(&shape).as_ref(), price);
                 Judged { smooth, shape, fitted }
             })

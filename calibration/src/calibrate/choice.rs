@@ -8,15 +8,15 @@ use std::cell::OnceCell;
 use super::confirm::{Judged, judged};
 use super::functions::{MOST, Settled, Winner, settled};
 use super::heard::{Places, are_any, heard};
+use super::orders::has_wave;
 use super::whole_objects::are_cut_across;
 use crate::contest::Hypothesis;
 use crate::diagnose::Rms;
 use crate::diagnose::rms::share;
 use crate::search::SearchError;
-use crate::search::context::{Context, Found};
+use crate::search::context::Context;
 use crate::search::library::AsGood;
 use crate::search::round::Round;
-use effects::families::HIGH_HARMONIC;
 use fit::FitResult;
 use study::Plan;
 
@@ -102,17 +102,15 @@ fn judge<'a>(settled: Settled<'a>, before: &FitResult) -> Result<Chosen<'a>, Sea
     Ok(Chosen { as_good, ..Chosen::of(whole, judged) })
 }
 
-/// Whether a search that knew of more waves found one, and predicts better with it: in random folds, and no worse in regions that it did
-/// not see.
+/// Whether a search that knew of more waves predicts better with one: in random folds, and no worse in regions that it did not see.
 pub(super) fn has_won(told: &Chosen<'_>, with_waves: &Chosen<'_>) -> bool {
-    let is_wave = |found: &Found| with_waves.whole.catalogue[found.effect].family == HIGH_HARMONIC;
     let ratio = |of: fn(&Rms) -> Option<f64>| share(&with_waves.judged.rms, &told.judged.rms, of);
     let kept = match told.whole.request.second {
         None => ratio(|rms| rms.held_out_rms_kept),
         Some(_) => None,
     };
     with_waves.judged.left_out.is_empty()
-        && with_waves.judged.round.fitted.found.iter().any(is_wave)
+        && has_wave(&with_waves.whole, &with_waves.judged.round)
         && kept.is_none_or(|ratio| ratio < 1.0)
         && ratio(|rms| rms.elsewhere_rms_kept).is_none_or(|ratio| ratio <= NO_WORSE)
 }

@@ -35,8 +35,11 @@ use std::cell::OnceCell;
 use model_core::{Chain, Mistakes};
 
 use crate::amend::{AmendError, amend, with_quantities_of};
+use crate::contest::Hypothesis;
 use crate::diagnose::shown::{DRAWN, Shown};
-use crate::diagnose::{Confirmed, Diagnosis, FrozenModel, Trace, Unsearched, diagnose, rounding, trace};
+use crate::diagnose::{
+    Caution, Confirmed, Diagnosis, FrozenModel, Trace, Unsearched, diagnose, rounding, trace,
+};
 use crate::misread::{Judgement, Misread, implausible, judged as columns_judged};
 use crate::search::SearchError;
 use crate::search::context::Context;
@@ -47,7 +50,7 @@ use confirm::{Judged, judged};
 use fit::{FitResult, Outcome};
 use network::{Placed, StartError, check_scale_of_ranges, placed};
 use rounds::rounds;
-use study::{Loaded, Open, Study};
+use study::{Loaded, Open, Plan, Study};
 use tables::formats::DataError;
 use tables::units::BareColumn;
 use weighed::Decided;
@@ -211,13 +214,7 @@ fn of_request(
                 searched(&whole, &before, Round::at(&whole, first)?, &loops[1])?
             }
         };
-        match orders::offered(&found, &by_wave)? {
-            None => found,
-            Some((whole, first)) => {
-                let with_waves = searched(&whole, &before, Round::at(&whole, first)?, &loops[2])?;
-                if choice::has_won(&found, &with_waves) { with_waves } else { found }
-            }
-        }
+        with_waves(found, &before, &by_wave, &loops[2])?
     };
     told(before, chosen, None)
 }
@@ -266,6 +263,34 @@ struct Loop {
     studies: choice::Studies,
 }
 
+/// What was chosen; or, where the residual behind it shows waves that no catalogue holds, what comes of a search that knows of them, if it
+/// finds one and predicts better.
+fn with_waves<'a>(
+    found: Chosen<'a>,
+    before: &FitResult,
+    plan: &'a OnceCell<Plan>,
+    own: &'a Loop,
+) -> Result<Chosen<'a>, CalibrateError> {
+    let Some((whole, first)) = orders::offered(&found, plan)? else { return Ok(found) };
+    let last = last(&whole, Round::at(&whole, first)?, own)?;
+    if !orders::has_wave(&last.whole, &last.round) {
+        return Ok(found);
+    }
+    let with_waves = chosen_of(last, before, own)?;
+    Ok(if choice::has_won(&found, &with_waves) { with_waves } else { found })
+}
+
+/// The last round of a search, before anything is left out to judge it.
+struct Last<'a> {
+    whole: Context<'a>,
+    round: Round<'a>,
+    /// Who competed, where a contest was held.
+    contest: Vec<Hypothesis>,
+    left_out: Vec<Caution>,
+    /// Whether functions of the library may compete with what was found.
+    is_open: bool,
+}
+
 /// From the first round to what the report is about.
 fn searched<'a>(
     whole: &Context<'a>,
@@ -273,27 +298,41 @@ fn searched<'a>(
     first: Round<'a>,
     own: &'a Loop,
 ) -> Result<Chosen<'a>, CalibrateError> {
+    chosen_of(last(whole, first, own)?, before, own)
+}
+
+/// From the first round to the last one.
+fn last<'a>(whole: &Context<'a>, first: Round<'a>, own: &'a Loop) -> Result<Last<'a>, CalibrateError> {
     let told = weighed::weighed(whole, &first)?;
     if let Some(told) = &told
         && let Some(Decided { whole, round, contest, caution }) =
             weighed::decided(whole, &first, told, &own.of_contest)?
     {
-        let mut judged = judged(&whole, before, round)?;
-        judged.left_out.extend(caution);
-        return Ok(Chosen { contest, ..Chosen::of(whole, judged) });
+        let left_out = caution.into_iter().collect();
+        return Ok(Last { whole, round, contest, left_out, is_open: false });
     }
     let round = outliers::reconsidered(whole, rounds(whole, first)?)?;
+    let remembering = &own.of_contest.remembering;
     let (whole, round, left_out) = match &told {
         None => (whole.clone(), round, None),
-        Some(told) => weighed::settled(whole.clone(), &own.of_contest.remembering, round, told)?,
+        Some(told) => weighed::settled(whole.clone(), remembering, round, told)?,
     };
     let contest = told.map_or_else(Vec::new, |told| told.contest);
-    let Some(left_out) = left_out else {
-        let (whole, round) = memory::settled(whole, &own.of_contest.remembering, round)?;
+    if let Some(left_out) = left_out {
+        return Ok(Last { whole, round, contest, left_out: vec![left_out], is_open: false });
+    }
+    let (whole, round) = memory::settled(whole, remembering, round)?;
+    Ok(Last { whole, round, contest, left_out: Vec::new(), is_open: true })
+}
+
+/// What a last round comes to where parts of the data are left out.
+fn chosen_of<'a>(last: Last<'a>, before: &FitResult, own: &'a Loop) -> Result<Chosen<'a>, CalibrateError> {
+    let Last { whole, round, contest, left_out, is_open } = last;
+    if is_open {
         return Ok(Chosen { contest, ..chosen(&whole, before, round, &own.studies)? });
-    };
+    }
     let mut judged = judged(&whole, before, round)?;
-    judged.left_out.push(left_out);
+    judged.left_out.extend(left_out);
     Ok(Chosen { contest, ..Chosen::of(whole, judged) })
 }
 

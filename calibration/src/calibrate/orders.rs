@@ -9,6 +9,8 @@ use crate::search::context::{Context, Request};
 use crate::search::fitted::Fitted;
 use crate::search::library::Shape;
 use crate::search::orders::peaks;
+use crate::search::round::Round;
+use effects::families::HIGH_HARMONIC;
 use study::Plan;
 
 /// The declaration's own fit with waves in the catalogue that the residual behind what was chosen shows; `None` where it shows none. `own`
@@ -45,4 +47,9 @@ pub(super) fn offered<'a>(
     let whole = Context { tell: whole.tell, ..Context::new(request, whole.setting.observables, whole.held)? };
     let first = Fitted::first(&whole)?;
     Ok(Some((whole, first)))
+}
+
+/// Whether a wave is among the effects of a round.
+pub(super) fn has_wave(whole: &Context<'_>, round: &Round<'_>) -> bool {
+    round.fitted.found.iter().any(|found| whole.catalogue[found.effect].family == HIGH_HARMONIC)
 }

@@ -13,7 +13,7 @@ use super::SearchError;
 use super::columns::Columns;
 use super::context::Context;
 use super::fitted::Fitted;
-use effects::candidate::Dependence;
+use effects::candidate::{Dependence, JointAxis};
 use effects::families::{SmoothPlace, smooth};
 use observe::waves::waves;
 
@@ -149,7 +149,7 @@ pub(crate) fn peaks(whole: &Context<'_>, fitted: &Fitted) -> Result<Vec<Peak>, S
     Ok(found)
 }
 
-/// The whitened residual behind the declared errors, and every joint at every place with the orders that it is scanned for.
+/// The whitened residual behind the declared errors, and every joint at the places of its body with the orders that it is scanned for.
 fn prepared(
     whole: &Context<'_>,
     fitted: &Fitted,
@@ -177,7 +177,9 @@ fn prepared(
     let axes = whole.setting.turning();
     let mut sites = Vec::new();
     for at in smooth(&whole.setting) {
-        let Some(axis) = axes.iter().find(|axis| axis.symbol == at.driver) else { continue };
+        // Teeth and rollers act on the body that their joint moves.
+        let of_joint = |axis: &&JointAxis| axis.symbol == at.driver && axis.place().body == at.place.body;
+        let Some(axis) = axes.iter().find(of_joint) else { continue };
         let (Some(column), Some(readings)) = (columns.probe(at.place), observations.poses.column(at.driver))
         else {
             continue;

@@ -76,19 +76,8 @@ pub(super) fn settled<'a>(
         let last = &settled.whole;
         let request = Request { plan, ..last.request };
         let next = Context { tell: last.tell, ..Context::new(request, last.setting.observables, last.held)? };
-        let numbered = |effect: EffectId| {
-            let Effect { name, place, .. } = &last.catalogue[effect];
-            next.catalogue.iter().position(|other| (&other.name, &other.place) == (name, place)).map(EffectId)
-        };
-        let mut found: Vec<Found> = taken
-            .kept
-            .iter()
-            .filter_map(|&kept| {
-                let Found { effect, p_value, alike, .. } = &settled.round.fitted.found[kept];
-                let alike = alike.iter().filter_map(|&effect| numbered(effect)).collect();
-                Some(Found { effect: numbered(*effect)?, p_value: *p_value, alike, shares: Vec::new() })
-            })
-            .collect();
+        let kept = taken.kept.iter().map(|&kept| &settled.round.fitted.found[kept]);
+        let mut found = numbered(kept, last, &next);
         let Some(own) = next.catalogue.iter().position(|effect| effect.name == name) else { break };
         let effect = EffectId(own);
         found.push(Found { effect, p_value: taken.p_value, alike: vec![effect], shares: Vec::new() });
@@ -100,6 +89,23 @@ pub(super) fn settled<'a>(
         settled = Settled::unasked(next, round);
     }
     Ok(settled)
+}
+
+/// Effects that were found, by their numbers in another catalogue; those that it does not have stay out.
+pub(super) fn numbered<'f>(
+    found: impl Iterator<Item = &'f Found>,
+    last: &Context<'_>,
+    next: &Context<'_>,
+) -> Vec<Found> {
+    let numbered = |effect: EffectId| {
+        let Effect { name, place, .. } = &last.catalogue[effect];
+        next.catalogue.iter().position(|other| (&other.name, &other.place) == (name, place)).map(EffectId)
+    };
+    let of = |Found { effect, p_value, alike, .. }: &Found| {
+        let alike = alike.iter().filter_map(|&effect| numbered(effect)).collect();
+        Some(Found { effect: numbered(*effect)?, p_value: *p_value, alike, shares: Vec::new() })
+    };
+    found.filter_map(of).collect()
 }
 
 /// The study with a function as an effect of its own, and the effect's name; `None` where the chain has no room for it.

@@ -3,9 +3,9 @@
 use std::cell::OnceCell;
 
 use super::choice::{Chosen, NAMED};
-use super::functions::add_function;
+use super::functions::{add_function, numbered};
 use crate::search::SearchError;
-use crate::search::context::{Context, Request};
+use crate::search::context::{Context, Found, Request};
 use crate::search::fitted::Fitted;
 use crate::search::library::Shape;
 use crate::search::orders::peaks;
@@ -45,11 +45,21 @@ pub(super) fn offered<'a>(
     });
     let request = Request { plan, ..whole.request };
     let whole = Context { tell: whole.tell, ..Context::new(request, whole.setting.observables, whole.held)? };
+    // A contest of everything is worth its time where a wave stands out beside what was found.
+    let found = numbered(judged.round.fitted.found.iter(), &chosen.whole, &whole);
+    let beside = Round::at(&whole, Fitted::with(&whole, found, &judged.round.fitted)?)?;
+    if !beside.search(&whole).iter().any(|found| is_wave(&whole, found)) {
+        return Ok(None);
+    }
     let first = Fitted::first(&whole)?;
     Ok(Some((whole, first)))
 }
 
 /// Whether a wave is among the effects of a round.
 pub(super) fn has_wave(whole: &Context<'_>, round: &Round<'_>) -> bool {
-    round.fitted.found.iter().any(|found| whole.catalogue[found.effect].family == HIGH_HARMONIC)
+    round.fitted.found.iter().any(|found| is_wave(whole, found))
+}
+
+fn is_wave(whole: &Context<'_>, found: &Found) -> bool {
+    whole.catalogue[found.effect].family == HIGH_HARMONIC
 }

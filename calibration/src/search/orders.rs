@@ -164,7 +164,7 @@ fn prepared(
     };
     let step = columns.residual.len().div_ceil(SCANNED).max(1);
     let chosen: Vec<(usize, f64)> = (0..columns.residual.len())
-        .filter(|at| columns.row[*at] as usize % step == 0)
+        .filter(|at| (columns.row[*at] as usize).is_multiple_of(step))
         .map(|at| (at, weight(at)))
         .filter(|(_, weight)| *weight > 0.0 && weight.is_finite())
         .collect();

@@ -8,6 +8,7 @@ mod frame;
 pub mod links;
 mod look;
 mod machine_tools;
+mod mounting;
 mod observed;
 mod otherwise;
 mod placed;
@@ -19,7 +20,7 @@ mod words;
 
 pub use look::Look;
 pub use otherwise::otherwise;
-pub use study::{Names, study};
+pub use study::{Joined, Names, study};
 pub use templates::Template;
 
 use ::study::{Open, Plan, Sample, Study};

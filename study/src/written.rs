@@ -6,6 +6,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 pub use super::kind::Kind;
+use super::trajectory::TrajectoryTable;
 use tables::units::Amount;
 
 /// Names with what is said of them, in the order of the alphabet.
@@ -36,6 +37,8 @@ pub struct Study {
     pub memory: Option<Spanned<String>>,
     /// Where the instrument stands, for files that give a time and no place.
     pub(super) site: Option<Site>,
+    /// What says where a vehicle was at the time of each row.
+    pub(super) trajectory: Option<TrajectoryTable>,
     /// Which column is which joint or input.
     #[serde(default)]
     pub(super) columns: Table<Column>,

@@ -1,6 +1,6 @@
 //! `trueaxis verify`: whether a calibration is still valid.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use service::verify::{self, Asked, FALSE_ALARM};
 
@@ -38,9 +38,11 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let instrument = source::instrument(&arguments.instrument)?;
     let asked = Asked { goal: arguments.goal.as_deref(), false_alarm: arguments.false_alarm };
-    let path = arguments.data.clone();
-    let mut open = move |_: &str, options: &tables::formats::Options| table_files::open_table(&path, options);
     let file = arguments.data.display().to_string();
+    let beside = arguments.data.parent().unwrap_or(Path::new("")).to_owned();
+    // What is not the data is the trajectory that joins them, as the study names it.
+    let path = |name: &str| if name == file { arguments.data.clone() } else { beside.join(name) };
+    let mut open = |name: &str, options: &tables::formats::Options| table_files::open_table(&path(name), options);
     table_files::known_format(&arguments.data)?;
     let verified = verify::verify(&instrument, &file, &mut open, &asked, &terminal::warn)?;
     match arguments.format {

@@ -102,7 +102,7 @@ pub fn begun(input: &[u8]) {
     };
     for template in std::iter::once(None).chain(init::templates::TEMPLATES.iter().map(Some)) {
         let drafted = init::draft(&look, template).and_then(|(_, draft)| {
-            let names = Names { chain: "f.chain", data: "f.csv", command: "f", site: None };
+            let names = Names { chain: "f.chain", data: "f.csv", command: "f", site: None, trajectory: None };
             let study = init::study(&draft, &look, names);
             init::hold(&draft, &study, &mut |_: &str| Ok(input.to_vec().into()))
         });

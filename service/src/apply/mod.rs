@@ -17,5 +17,6 @@ pub use layout::{Layout, Place, not_finite, not_finite_warnings, numbers, write_
 pub use pose::{PoseForm, nominal_pose};
 pub use seen::{As, Seen};
 pub use solve::{REACHED, Search, Solved, Solver};
+pub(crate) use solve::with_axes;
 pub(crate) use step::distance;
 pub use uncertain::Uncertain;

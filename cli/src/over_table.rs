@@ -109,11 +109,7 @@ impl OverTable {
     }
 
     /// The trajectory that joins the rows, if one does.
-    fn joining(
-        &self,
-        plan: Option<&TrajectoryPlan>,
-        options: &Options,
-    ) -> Result<Option<Joining>, Failure> {
+    fn joining(&self, plan: Option<&TrajectoryPlan>, options: &Options) -> Result<Option<Joining>, Failure> {
         match (plan, &self.trajectory) {
             (Some(plan), own) => Joining::read(plan, own.as_deref(), &self.data, options).map(Some),
             (None, None) => Ok(None),

@@ -63,7 +63,9 @@ pub fn correct(instrument: &Instrument, data: &Path, out: &Path) -> Result<Strin
             let wanted = mounted.corrected(given);
             let off = |at: usize| written[at] - wanted[at];
             let turned = |at: usize| (off(at) + PI).rem_euclid(TAU) - PI;
-            most_m = [off(1) * RADIUS_M, off(2) * RADIUS_M, off(3)].into_iter().fold(most_m, |most, off| most.max(off.abs()));
+            most_m = [off(1) * RADIUS_M, off(2) * RADIUS_M, off(3)]
+                .into_iter()
+                .fold(most_m, |most, off| most.max(off.abs()));
             most_rad = [7, 8, 9].into_iter().fold(most_rad, |most, at| most.max(turned(at).abs()));
         }
         if given.is_empty() {

@@ -64,6 +64,8 @@ pub struct Draft {
     estimate: Vec<&'static str>,
     /// Where the fit starts: an error, and its value as the study writes it.
     start: Vec<(&'static str, String)>,
+    /// How large errors may be, where these are larger than those of an instrument usually are: patterns of names, with their sizes.
+    tolerance: &'static [(&'static str, &'static str)],
     /// Side quantities that effects may use.
     inputs: Vec<String>,
     /// Whether the rows follow each other as they were taken, so that the sense of a motion is seen.

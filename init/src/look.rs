@@ -255,8 +255,16 @@ impl Column {
         let numbers = texts.iter().map(read).collect();
         let no_number = texts.iter().position(|text| read(text).is_none());
         let different: BTreeSet<&str> = texts.iter().map(str::trim).collect();
-        let mut column =
-            Self { name, words, unit, numbers, no_number, different: different.len(), labels: Vec::new(), rows: texts.len() };
+        let mut column = Self {
+            name,
+            words,
+            unit,
+            numbers,
+            no_number,
+            different: different.len(),
+            labels: Vec::new(),
+            rows: texts.len(),
+        };
         if column.labels_rows() {
             let numbers: BTreeMap<&str, u32> = different.into_iter().zip(0..).collect();
             column.labels = texts.iter().filter_map(|text| numbers.get(text.trim()).copied()).collect();

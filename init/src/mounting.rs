@@ -17,7 +17,7 @@ pub struct Mounting {
     /// Whether the scanner's first angle counts the other way.
     pub is_reversed: bool,
     /// What the user should know of it.
-    pub said: Option<String>,
+    pub said: String,
 }
 
 /// One way to sit.
@@ -38,9 +38,13 @@ pub fn mounting(
     may_be_reversed: bool,
     labels: &[u32],
 ) -> Result<Mounting, String> {
-    let at = |column: usize, row: usize| pose.get(column).and_then(|own| own.get(row)).copied().unwrap_or(f64::NAN);
+    let at = |column: usize, row: usize| {
+        pose.get(column).and_then(|own| own.get(row)).copied().unwrap_or(f64::NAN)
+    };
     let vehicles: Vec<(Vector3<f64>, Rotation3<f64>)> = (0..points.len())
-        .map(|row| (Vector3::new(at(0, row), at(1, row), at(2, row)), turned(at(3, row), at(4, row), at(5, row))))
+        .map(|row| {
+            (Vector3::new(at(0, row), at(1, row), at(2, row)), turned(at(3, row), at(4, row), at(5, row)))
+        })
         .collect();
     let planes = labels.iter().max().map_or(0, |most| *most as usize + 1);
     let flatness = |way: &Way| {
@@ -57,31 +61,40 @@ pub fn mounting(
         }
         (sum / count as f64).sqrt()
     };
-    let mut ways: Vec<(f64, Way)> = ways(may_be_reversed).into_iter().map(|way| (flatness(&way), way)).collect();
+    let mut ways: Vec<(f64, Way)> =
+        ways(may_be_reversed).into_iter().map(|way| (flatness(&way), way)).collect();
     ways.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     let mut ways = ways.into_iter();
     let Some((flattest, way)) = ways.next().filter(|(flattest, _)| flattest.is_finite()) else {
-        return Err(format!("no plane was hit by {LEAST} rows: label the points of a few walls, roads or roofs"));
+        return Err(format!(
+            "no plane was hit by {LEAST} rows: label the points of a few walls, roads or roofs"
+        ));
     };
     let alike = ways.take_while(|(other, _)| *other < AS_FLAT * flattest).count();
     let factors = way.factors.join(", ");
-    let said = match (factors.as_str(), alike) {
-        ("", 0) => "the scanner's axes are those of the vehicle (right, forward, up) by the rows".to_owned(),
-        (own, 0) => format!("the scanner's axes are turned against the vehicle's (right, forward, up) by {own}, by the rows"),
-        (own, more) => format!(
-            "the rows do not decide how the scanner sits: {} was taken, and {more} other ways by right angles are as good; correct `position` of \
-             `scanner` in the declaration, or drive some turns",
-            if own.is_empty() { "no turn" } else { own }
+    let sits = match factors.as_str() {
+        "" => "The scanner's axes are those of the vehicle: right, forward, up.".to_owned(),
+        own => format!(
+            "The scanner's axes are turned by {own} against those of the vehicle (right, forward, up)."
         ),
     };
-    let off = format!("; so the points are within {flattest:.3} m of planes (RMS) before anything is estimated");
-    Ok(Mounting { factors, is_reversed: way.is_reversed, said: Some(said + &off) })
+    let shown = match alike {
+        0 => format!(
+            "The rows show it. With this turn the points are within {flattest:.3} m of planes (RMS), before any error is estimated."
+        ),
+        more => format!(
+            "The rows do not show it alone: {more} other turns by right angles are as good. Correct `position` of `scanner` in the declaration, or \
+             take rows of a drive with turns."
+        ),
+    };
+    Ok(Mounting { factors, is_reversed: way.is_reversed, said: format!("{sits} {shown}") })
 }
 
 /// The sum of squares of what some points are off their plane.
 fn off_plane(points: &[Vector3<f64>]) -> f64 {
     let centre = points.iter().sum::<Vector3<f64>>() / points.len() as f64;
-    let scatter = points.iter().map(|point| (point - centre) * (point - centre).transpose()).sum::<Matrix3<f64>>();
+    let scatter =
+        points.iter().map(|point| (point - centre) * (point - centre).transpose()).sum::<Matrix3<f64>>();
     SymmetricEigen::new(scatter).eigenvalues.min().max(0.0)
 }
 

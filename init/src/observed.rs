@@ -120,7 +120,12 @@ impl Observed {
             Self::Direction([x, y, z]) => {
                 Some(x.si.iter().zip(&y.si).zip(&z.si).map(|((&x, &y), &z)| [x, y, z]).collect())
             }
-            Self::Azimuth(_) | Self::Offset(_) | Self::Point(_) | Self::Range(_) | Self::Target(..) | Self::Plane(_) => None,
+            Self::Azimuth(_)
+            | Self::Offset(_)
+            | Self::Point(_)
+            | Self::Range(_)
+            | Self::Target(..)
+            | Self::Plane(_) => None,
         }
     }
 }

@@ -99,7 +99,7 @@ pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
         );
         let _ = writeln!(text, "group = {}", list(groups.iter().map(String::as_str)));
     }
-    if !draft.estimate.is_empty() || !draft.start.is_empty() {
+    if !draft.estimate.is_empty() || !draft.start.is_empty() || !draft.tolerance.is_empty() {
         text.push_str("\n[fit]\n");
         if !draft.estimate.is_empty() {
             let _ = writeln!(text, "estimate = {}", list(draft.estimate.iter().copied()));
@@ -108,6 +108,14 @@ pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
             draft.start.iter().map(|(name, value)| format!("{name} = {}", quoted(value))).collect();
         if !starts.is_empty() {
             let _ = writeln!(text, "start = {{ {} }}", starts.join(", "));
+        }
+        let sizes: Vec<String> = draft
+            .tolerance
+            .iter()
+            .map(|(name, size)| format!("{} = {}", quoted(name), quoted(size)))
+            .collect();
+        if !sizes.is_empty() {
+            let _ = writeln!(text, "tolerance = {{ {} }} # how large these may be", sizes.join(", "));
         }
     }
     if !draft.inputs.is_empty() || draft.is_in_order {
@@ -119,7 +127,10 @@ pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
     if !draft.inputs.is_empty() {
         let _ = writeln!(text, "inputs = {}", list(draft.inputs.iter().map(String::as_str)));
     }
-    let good = if matches!(draft.observed, Observed::Point(_) | Observed::Range(_) | Observed::Target(..) | Observed::Plane(_)) {
+    let good = if matches!(
+        draft.observed,
+        Observed::Point(_) | Observed::Range(_) | Observed::Target(..) | Observed::Plane(_)
+    ) {
         "0.1 mm"
     } else {
         "5 arcsec"
@@ -153,7 +164,7 @@ pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
 /// `[trajectory]`
 fn trajectory_table(Joined { file, time, offset, origin }: Joined<'_>) -> String {
     let mut text = format!(
-        "\n# Joins the rows by time with columns east, north, up, heading, pitch and roll. The origin is east, north and up zero.\n[trajectory]\n\
+        "\n[trajectory] # gives each row east, north, up, heading, pitch and roll by its time; the origin is east, north and up zero\n\
          file   = {}\ntime   = {}\n",
         quoted(file),
         quoted(time)

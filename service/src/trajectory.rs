@@ -62,7 +62,8 @@ impl Mounted {
     /// What a corrected trajectory is, in words.
     #[must_use]
     pub fn said(&self) -> String {
-        let pose = Pose { place_m: Vector3::zeros(), turn: UnitQuaternion::from_rotation_matrix(&self.boresight) };
+        let pose =
+            Pose { place_m: Vector3::zeros(), turn: UnitQuaternion::from_rotation_matrix(&self.boresight) };
         let [heading, pitch, roll] = pose.angles().map(f64::to_degrees);
         let [right, forward, up] = [self.lever_m.x, self.lever_m.y, self.lever_m.z];
         format!(
@@ -104,7 +105,8 @@ fn pose_at_zero(subject: &Subject, values: &[f64]) -> Result<(Vector3<f64>, Rota
     let (posed, observables) = crate::apply::with_axes(&subject.chain, subject.observable);
     let evaluator = Evaluator::new(&posed, observables, Exactness::Exact, Quantity::Value, values);
     let zero = [0.0];
-    let readings: Vec<(SymbolId, &[f64])> = evaluator.readings.iter().map(|id| (*id, zero.as_slice())).collect();
+    let readings: Vec<(SymbolId, &[f64])> =
+        evaluator.readings.iter().map(|id| (*id, zero.as_slice())).collect();
     let columns = evaluator.columns(&readings, 1)?;
     let [place, x, y, z] = [0, 3, 6, 9].map(|first| Vector3::from_fn(|axis, _| columns[first + axis][0]));
     Ok((place, Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, y, z]))))

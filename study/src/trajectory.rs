@@ -96,7 +96,11 @@ impl TrajectoryPlan {
     ///
     /// # Errors
     /// What is wrong with it, with its place.
-    pub fn read(&self, reader: &mut dyn TableReader, options: &Options) -> Result<Arc<Trajectory>, DataError> {
+    pub fn read(
+        &self,
+        reader: &mut dyn TableReader,
+        options: &Options,
+    ) -> Result<Arc<Trajectory>, DataError> {
         Trajectory::read(reader, self.origin, options).map(Arc::new)
     }
 
@@ -128,7 +132,10 @@ impl<'p> Joining<'p> {
     }
 
     /// A table with what joins it.
-    pub fn table<'t>(&self, points: Box<dyn TableReader + 't>) -> Result<Box<dyn TableReader + 't>, DataError> {
+    pub fn table<'t>(
+        &self,
+        points: Box<dyn TableReader + 't>,
+    ) -> Result<Box<dyn TableReader + 't>, DataError> {
         match &self.0 {
             Some((plan, trajectory)) => plan.joined(points, trajectory),
             None => Ok(points),

@@ -149,7 +149,8 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     not_there(written)?;
     let data_named = beside(&study_file, data)?;
     let trajectory_named = joined.as_ref().map(|joined| beside(&study_file, &joined.file)).transpose()?;
-    let trajectory = joined.as_ref().zip(trajectory_named.as_deref()).map(|(joined, file)| joined.named(file));
+    let trajectory =
+        joined.as_ref().zip(trajectory_named.as_deref()).map(|(joined, file)| joined.named(file));
     let names = init::Names {
         chain: &name(&chain_file)?,
         data: &data_named,

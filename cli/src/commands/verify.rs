@@ -42,7 +42,8 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let beside = arguments.data.parent().unwrap_or(Path::new("")).to_owned();
     // What is not the data is the trajectory that joins them, as the study names it.
     let path = |name: &str| if name == file { arguments.data.clone() } else { beside.join(name) };
-    let mut open = |name: &str, options: &tables::formats::Options| table_files::open_table(&path(name), options);
+    let mut open =
+        |name: &str, options: &tables::formats::Options| table_files::open_table(&path(name), options);
     table_files::known_format(&arguments.data)?;
     let verified = verify::verify(&instrument, &file, &mut open, &asked, &terminal::warn)?;
     match arguments.format {

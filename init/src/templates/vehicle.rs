@@ -20,7 +20,8 @@ pub const TEMPLATE: Template = Template {
 
 /// Words by which a column names planes, the plainest first.
 const PLANES: [&str; 12] = [
-    "plane", "wall", "surface", "facade", "roof", "patch", "segment", "object", "target", "label", "feature", "class",
+    "plane", "wall", "surface", "facade", "roof", "patch", "segment", "object", "target", "label", "feature",
+    "class",
 ];
 
 /// The points as the scanner has them, with what the declaration says of them.
@@ -65,9 +66,10 @@ fn draft(look: &Look) -> Result<Draft, String> {
     let read = [look.lengths(&lengths, &mut remarks)?, look.angles(&angles, &mut remarks)?].concat();
     let pose: Vec<&[f64]> = read.iter().map(|read| read.si.as_slice()).collect();
     let Mounting { factors, is_reversed, said } =
-        mounting(&pose, &sensed.points, sensed.reversed.is_some(), plane.labels()).map_err(|why| format!("{}: {why}", look.file))?;
-    remarks.extend(said);
-    remarks.push("where the planes are is estimated, too; level roads and roofs do not show how high the scanner sits".to_owned());
+        mounting(&pose, &sensed.points, sensed.reversed.is_some(), plane.labels())
+            .map_err(|why| format!("{}: {why}", look.file))?;
+    remarks.push(said);
+    remarks.push("The places of the planes are estimated too. Level roads and roofs show the height of the scanner only where the vehicle tilts.".to_owned());
     let motion = sensed.reversed.filter(|_| is_reversed).unwrap_or(sensed.motion);
     let line = |key: &str, factors: &str| match factors {
         "" => String::new(),
@@ -85,6 +87,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         turned: None,
         estimate: Vec::new(),
         start: Vec::new(),
+        tolerance: &[("lever_*", "2 m"), ("boresight_*", "2 deg")],
         inputs: Vec::new(),
         is_in_order: false,
         remarks,
@@ -109,9 +112,17 @@ fn plane(look: &Look) -> Result<&Column, String> {
 fn sensed(look: &Look, remarks: &mut Vec<String>) -> Result<Sensed, String> {
     if let Some(vector) = vector(look) {
         let read = look.lengths(&vector, remarks)?;
-        let points = (0..read[0].si.len()).map(|row| std::array::from_fn(|axis| read[axis].si[row])).collect();
+        let points =
+            (0..read[0].si.len()).map(|row| std::array::from_fn(|axis| read[axis].si[row])).collect();
         let columns = ["scanner_x", "scanner_y", "scanner_z"].into_iter().zip(read).collect();
-        return Ok(Sensed { columns, inputs: IN_SPACE, motion: "", reversed: None, point: "scanner_x, scanner_y, scanner_z", points });
+        return Ok(Sensed {
+            columns,
+            inputs: IN_SPACE,
+            motion: "",
+            reversed: None,
+            point: "scanner_x, scanner_y, scanner_z",
+            points,
+        });
     }
     let range = look.reading(&[Part::Range])?.ok_or_else(|| {
         format!(
@@ -132,7 +143,14 @@ fn sensed(look: &Look, remarks: &mut Vec<String>) -> Result<Sensed, String> {
         let Some(angle) = angles.pop() else { unreachable!("one column was read") };
         let points = range.si.iter().zip(&angle.si).map(|(r, a)| [r * a.sin(), 0.0, r * a.cos()]).collect();
         let columns = vec![("angle", angle), ("range", range)];
-        return Ok(Sensed { columns, inputs: WITH_A_RANGE, motion: "Ry(angle)", reversed: None, point: "0, 0, range", points });
+        return Ok(Sensed {
+            columns,
+            inputs: WITH_A_RANGE,
+            motion: "Ry(angle)",
+            reversed: None,
+            point: "0, 0, range",
+            points,
+        });
     };
     let angles = look.angles(&[first, second], remarks)?;
     let up = |angle: f64| if zenith.is_some() { std::f64::consts::FRAC_PI_2 - angle } else { angle };
@@ -146,12 +164,21 @@ fn sensed(look: &Look, remarks: &mut Vec<String>) -> Result<Sensed, String> {
         None => ("elevation", "Rz(-azimuth), Rx(elevation)", "Rz(azimuth), Rx(elevation)"),
     };
     let columns = ["azimuth", name, "range"].into_iter().zip(angles.into_iter().chain([range])).collect();
-    Ok(Sensed { columns, inputs: WITH_A_RANGE, motion, reversed: Some(reversed), point: "0, range, 0", points })
+    Ok(Sensed {
+        columns,
+        inputs: WITH_A_RANGE,
+        motion,
+        reversed: Some(reversed),
+        point: "0, range, 0",
+        points,
+    })
 }
 
 /// Three columns whose names differ in the axis alone.
 fn vector(look: &Look) -> Option<[&Column; 3]> {
-    let of = |axis: &'static str| look.columns.iter().filter_map(move |column| Some((column.words_without(axis)?, column)));
+    let of = |axis: &'static str| {
+        look.columns.iter().filter_map(move |column| Some((column.words_without(axis)?, column)))
+    };
     of("x").find_map(|(stem, x)| {
         let beside = |axis: &'static str| of(axis).find(|(own, _)| *own == stem).map(|(_, column)| column);
         Some([x, beside("y")?, beside("z")?])

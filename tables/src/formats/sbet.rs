@@ -100,15 +100,15 @@ fn implausible(record: &Record) -> Option<String> {
     if let Some(at) = record.iter().position(|number| !number.is_finite()) {
         return refused(at, "which is no number: export the trajectory again");
     }
-    let none = "so this is no SBET file: give the file of 136 bytes a record that the navigation software exports";
+    let none =
+        "so this is no SBET file: give the file of 136 bytes a record that the navigation software exports";
     if !(0.0..LATEST).contains(&record[0]) || record[0] != 0.0 && record[0] < EARLIEST {
         return refused(0, none);
     }
     if !ALTITUDES.contains(&record[3]) {
         return refused(3, none);
     }
-    let most =
-        [(1, FRAC_PI_2), (2, TAU), (7, TAU), (8, FRAC_PI_2), (9, 2.0 * TAU), (10, TAU)];
+    let most = [(1, FRAC_PI_2), (2, TAU), (7, TAU), (8, FRAC_PI_2), (9, 2.0 * TAU), (10, TAU)];
     let (at, _) = most.into_iter().find(|&(at, most)| record[at].abs() > most + ROUNDING)?;
     let in_degrees = "and SBET has radians: export the trajectory in radians";
     refused(at, if record[at].abs() <= 720.0 { in_degrees } else { none })
@@ -150,7 +150,9 @@ impl<'r> Reader<'r> {
         }
         if bytes.len() < RECORD {
             let found = bytes.len();
-            return Err(self.bad(format!("it has {found} of {RECORD} bytes: the file is cut off, so copy it again")));
+            return Err(
+                self.bad(format!("it has {found} of {RECORD} bytes: the file is cut off, so copy it again"))
+            );
         }
         let record = decoded(&bytes);
         if let Some(why) = implausible(&record) {
@@ -163,7 +165,9 @@ impl<'r> Reader<'r> {
             } else {
                 "take the records from there on out, or export the trajectory again"
             };
-            return Err(self.bad(format!("its time {time:?} s is not later than {last:?} s of the record before: {help}")));
+            return Err(self.bad(format!(
+                "its time {time:?} s is not later than {last:?} s of the record before: {help}"
+            )));
         }
         self.last = Some(time);
         self.records += 1;

@@ -52,8 +52,8 @@ impl Geodetic {
         }
         let (sin, cos) = latitude_rad.sin_cos();
         // Near a pole as well as near the equator.
-        let height_m = from_axis * cos + point.z * sin
-            - SEMI_MAJOR_M * (1.0 - ECCENTRICITY_2 * sin * sin).sqrt();
+        let height_m =
+            from_axis * cos + point.z * sin - SEMI_MAJOR_M * (1.0 - ECCENTRICITY_2 * sin * sin).sqrt();
         Self { latitude_rad, longitude_rad: point.y.atan2(point.x), height_m }
     }
 
@@ -96,9 +96,13 @@ mod tests {
 
     #[test]
     fn verify_there_and_back() {
-        for (latitude, longitude, height) in
-            [(0.0, 0.0, 0.0), (48.1, 11.6, 530.0), (-33.9, 151.2, -400.0), (89.9, -170.0, 9_000.0), (-90.0, 0.0, 20_000.0)]
-        {
+        for (latitude, longitude, height) in [
+            (0.0, 0.0, 0.0),
+            (48.1, 11.6, 530.0),
+            (-33.9, 151.2, -400.0),
+            (89.9, -170.0, 9_000.0),
+            (-90.0, 0.0, 20_000.0),
+        ] {
             let given = place(latitude, longitude, height);
             let back = Geodetic::of_geocentric(&given.geocentric());
             assert_abs_diff_eq!(back.latitude_rad, given.latitude_rad, epsilon = 1e-15);

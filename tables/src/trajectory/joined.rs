@@ -66,7 +66,8 @@ impl<'t> Joined<'t> {
         let (own, file) = (points.header(), points.source());
         let time = times(&*points, &join.time)?;
         let brought: Vec<ColumnName> = COLUMNS.iter().map(|name| ColumnName::parse(name)).collect();
-        if let Some(twice) = own.iter().find(|own| brought.iter().any(|column| own.means(&column.stem, &[]))) {
+        if let Some(twice) = own.iter().find(|own| brought.iter().any(|column| own.means(&column.stem, &[])))
+        {
             return Err(DataError::UnusableColumn {
                 file: file.to_owned(),
                 column: twice.full.clone(),
@@ -122,8 +123,8 @@ impl<'t> Joined<'t> {
         let named = self.trajectory.source();
         let why = match why {
             NotThere::Gap(from, to) => format!(
-                "its time {} lies in a gap of {named}, from {from:?} s to {to:?} s, as do {without} of {rows} rows: leave these rows out, or \
-                 write gap = \"{:.3} s\" under [trajectory] to go straight from one record to the other",
+                "its time {} is in a gap of {named}, from {from:?} s to {to:?} s. {without} of {rows} rows have no pose. Leave them out, or write \
+                 gap = \"{:.3} s\" under [trajectory] to interpolate across",
                 self.told(times[at]),
                 1.001 * (to - from)
             ),
@@ -147,23 +148,21 @@ impl<'t> Joined<'t> {
         let points = span_s.map(|time| time + self.join.offset_s);
         let [[from, to], [first, last]] = [covered, points];
         let said = format!(
-            "its time {} is not in {named}, which has {from:?} s to {to:?} s; the points have {first:?} s to {last:?} s, and {without} of {rows} \
-             rows are outside",
+            "its time {} is outside of {named}. The trajectory has {from:?} s to {to:?} s, the points have {first:?} s to {last:?} s. {without} of \
+             {rows} rows are outside.",
             self.told(time_s)
         );
-        let help = match (offset(points, covered), apart(points, covered)) {
-            (Some(offset), apart) => format!(
-                "{}{}. If that is so, write offset = \"{} s\" under [trajectory]",
-                apart.map_or_else(String::new, |apart| format!("{apart}. By the difference, ")),
+        let apart = apart(points, covered).map(|apart| format!("{apart}. ")).unwrap_or_default();
+        let help = match offset(points, covered) {
+            Some(offset) => format!(
+                "Probably {}. If so, write offset = \"{} s\" under [trajectory]",
                 offset.what,
                 self.join.offset_s + offset.seconds
             ),
-            (None, Some(apart)) => format!(
-                "{apart}. Give the trajectory of these points, or write what is to be added to their times, as offset = \"-18 s\" under [trajectory]"
-            ),
-            (None, None) => "leave these rows out, or give a trajectory that covers them".to_owned(),
+            None if apart.is_empty() => "Leave these rows out, or give a trajectory that covers them".to_owned(),
+            None => "Give the trajectory of these points. Or write what is to be added to their times, as offset = \"-18 s\" under [trajectory]".to_owned(),
         };
-        format!("{said}: {help}")
+        format!("{said} {apart}{help}")
     }
 }
 

@@ -7,6 +7,8 @@
 mod earth;
 mod joined;
 mod overlap;
+#[cfg(test)]
+mod tests;
 
 use std::f64::consts::{PI, TAU};
 
@@ -14,9 +16,7 @@ use model_core::unit::Measures;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use crate::formats::sbet::Record;
-use crate::formats::{
-    Cells, DataError, Form, Options, ReadAs, TableReader, Wanted, find_column,
-};
+use crate::formats::{Cells, DataError, Form, Options, ReadAs, TableReader, Wanted, find_column};
 pub use earth::Geodetic;
 pub use joined::{COLUMNS, Join, Joined};
 pub use overlap::{Offset, offset_of, time_column};
@@ -257,7 +257,8 @@ fn numbers(cells: &Cells) -> &[f64] {
 }
 
 fn row(columns: &[&[f64]], at: usize) -> Row {
-    let number = |column: usize| columns.get(column).and_then(|column| column.get(at)).copied().unwrap_or(0.0);
+    let number =
+        |column: usize| columns.get(column).and_then(|column| column.get(at)).copied().unwrap_or(0.0);
     let [time_s, latitude_rad, longitude_rad, height_m, roll, pitch, platform_heading, wander] =
         std::array::from_fn(number);
     Row {

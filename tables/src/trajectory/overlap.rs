@@ -35,14 +35,14 @@ pub fn offset([first, last]: [f64; 2], [from, to]: [f64; 2]) -> Option<Offset> {
     let known = [
         (
             ADJUSTED_S + whole(from - ADJUSTED_S - first, WEEK_S),
-            "the points have standard GPS time (less 10⁹ s), the trajectory seconds of the GPS week",
+            "the points have standard GPS time (less 10⁹ s) and the trajectory has seconds of the GPS week",
         ),
-        (whole(from - first, WEEK_S), "one of them counts GPS weeks that the other leaves out"),
+        (whole(from - first, WEEK_S), "one of them counts GPS weeks and the other does not"),
         (
             whole(from - first + ADJUSTED_S, WEEK_S) - ADJUSTED_S,
-            "the trajectory has standard GPS time (less 10⁹ s), the points seconds of the GPS week",
+            "the trajectory has standard GPS time (less 10⁹ s) and the points have seconds of the GPS week",
         ),
-        (whole(from - first, DAY_S), "one of them counts days that the other leaves out"),
+        (whole(from - first, DAY_S), "one of them counts days and the other does not"),
     ];
     let fits = |seconds: f64| seconds != 0.0 && first + seconds >= from && last + seconds <= to;
     known.into_iter().find(|(seconds, _)| fits(*seconds)).map(|(seconds, what)| Offset { seconds, what })
@@ -52,9 +52,9 @@ pub fn offset([first, last]: [f64; 2], [from, to]: [f64; 2]) -> Option<Offset> {
 #[must_use]
 pub fn apart([first, last]: [f64; 2], [from, to]: [f64; 2]) -> Option<String> {
     if first > to {
-        return Some(format!("the first point comes {:?} s after the last record", first - to));
+        return Some(format!("The first point comes {:?} s after the last record", first - to));
     }
-    (last < from).then(|| format!("the last point comes {:?} s before the first record", from - last))
+    (last < from).then(|| format!("The last point comes {:?} s before the first record", from - last))
 }
 
 /// The column of a table of points that has their times, as a study names it.
@@ -99,7 +99,9 @@ pub fn offset_of(
     let mut span = [f64::INFINITY, f64::NEG_INFINITY];
     loop {
         let chunk = points.read(&wanted, CHUNK)?;
-        let Some(Cells::Numbers(times)) = chunk.columns.first().filter(|_| !chunk.rows.is_empty()) else { break };
+        let Some(Cells::Numbers(times)) = chunk.columns.first().filter(|_| !chunk.rows.is_empty()) else {
+            break;
+        };
         span = times.iter().fold(span, |[from, to], time| [from.min(*time), to.max(*time)]);
     }
     let covered = trajectory.span();
@@ -128,7 +130,10 @@ mod tests {
         assert_eq!(offset(week, later).map(|own| own.seconds), Some(adjusted));
         // Points that last longer than the trajectory belong to another.
         assert_eq!(offset([300_010.0 + adjusted, 301_000.0 + adjusted], trajectory), None);
-        assert_eq!(apart(plus(1000.0), trajectory).as_deref(), Some("the first point comes 410.0 s after the last record"));
+        assert_eq!(
+            apart(plus(1000.0), trajectory).as_deref(),
+            Some("The first point comes 410.0 s after the last record")
+        );
         assert_eq!(apart(week, trajectory), None);
     }
 }

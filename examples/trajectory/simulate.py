@@ -5,7 +5,7 @@ Written from the public description of SBET (17 little-endian doubles a record; 
 down; heading = platform heading - wander angle) and of WGS 84 (a = 6378137 m, 1/f = 298.257223563). It shares no code with trueaxis.
 NumPy alone is needed.
 
-    python3 write_drives.py [FOLDER [SEED]]      default: samples beside this file, seed 3
+    python3 simulate.py [FOLDER [SEED]]      default: beside this file, seed 3
 """
 
 import pathlib
@@ -97,7 +97,7 @@ def unit(v):
 
 
 def street(random):
-    """A figure of eight in a street, 20 records a second; a profile scanner behind the roof turns about the way ahead, from up to the left."""
+    """A figure of eight in a street, 40 records a second; a profile scanner behind the roof turns about the way ahead, from up to the left."""
     mount = np.array([[0.0, 0.0, -1.0], [0.0, -1.0, 0.0], [-1.0, 0.0, 0.0]])  # columns: the scanner's x, y, z as forward, right, down
     boresight = body(*np.radians([0.35, -0.22, 0.41]))
     lever = np.array([-0.62, 0.17, -0.95])
@@ -116,7 +116,7 @@ def street(random):
         return np.array([north, east, 0.1 * np.sin(0.5 * t)]), body(heading, pitch, roll)
 
     start = 309_600.0
-    records = [place.record(start + k / 20, *pose(k / 20), 0.01) for k in range(50 * 20 + 1)]
+    records = [place.record(start + k / 40, *pose(k / 40), 0.01) for k in range(50 * 40 + 1)]
     lines = ["gps_time [s],wall,angle [deg],range [m]"]
     for t in np.sort(random.uniform(0.2, 49.8, 900)):
         position, attitude = pose(t)
@@ -177,4 +177,4 @@ def main(folder, seed):
 
 if __name__ == "__main__":
     given = sys.argv[1:]
-    main(pathlib.Path(given[0]) if given else pathlib.Path(__file__).parent / "samples", int(given[1]) if len(given) > 1 else 3)
+    main(pathlib.Path(given[0]) if given else pathlib.Path(__file__).parent, int(given[1]) if len(given) > 1 else 3)

@@ -5,7 +5,7 @@ Written from the public description of SBET (17 little-endian doubles a record; 
 down; heading = platform heading - wander angle) and of WGS 84 (a = 6378137 m, 1/f = 298.257223563). It shares no code with trueaxis.
 NumPy alone is needed.
 
-    python3 simulate.py [FOLDER [SEED]]      default: beside this file, seed 3
+    python3 simulate.py [FOLDER [SEED]]      default: beside this file, seed 6
 """
 
 import pathlib
@@ -177,4 +177,4 @@ def main(folder, seed):
 
 if __name__ == "__main__":
     given = sys.argv[1:]
-    main(pathlib.Path(given[0]) if given else pathlib.Path(__file__).parent, int(given[1]) if len(given) > 1 else 3)
+    main(pathlib.Path(given[0]) if given else pathlib.Path(__file__).parent, int(given[1]) if len(given) > 1 else 6)

@@ -83,7 +83,7 @@ impl Plan {
     /// What is wrong with a table, with its place.
     pub fn load_tables(&self, open: &mut OpenTable<'_>) -> Result<Loaded, DataError> {
         let (mut doubtful, mut sample) = (Doubtful::default(), Sample::default());
-        let joining = Joining::of(self.trajectory.as_ref(), open, &self.format)?;
+        let joining = Joining::of(self.trajectory.as_ref(), |path| open(path, &self.format), &self.format)?;
         let open: &mut OpenTable<'_> = &mut |path, options| joining.table(open(path, options)?);
         let mut observations = self.no_observations();
         let mut groups = Numbered::default();

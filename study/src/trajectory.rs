@@ -2,46 +2,19 @@
 
 use std::sync::Arc;
 
-use serde::Deserialize;
 use toml::Spanned;
 
 use super::amount::si_with_unit;
 use super::format::angle;
-use super::load::OpenTable;
 use super::mistakes::{Gathered, Outcome, mistake};
-use super::written::Study;
+use super::written::{Origin, Study};
 use model_core::Quantity;
 use tables::formats::{DataError, Options, TableReader};
 use tables::trajectory::{Geodetic, Join, Joined, Trajectory};
-use tables::units::{self, Amount};
+use tables::units;
 
 /// Records that are farther apart say nothing of what lies between, unless a study says more, s.
 const GAP_S: f64 = 0.1;
-
-/// `[trajectory]`, as written.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct TrajectoryTable {
-    /// Path of the file, relative to the study.
-    pub file: Spanned<String>,
-    /// The column of the data that has the times.
-    pub time: String,
-    /// What is added to these times.
-    pub offset: Option<Spanned<String>>,
-    /// How far records may be apart.
-    pub gap: Option<Spanned<String>>,
-    /// The place that is zero.
-    pub origin: Option<Origin>,
-}
-
-/// A place by its angles and its height above the ellipsoid.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Origin {
-    pub latitude: Spanned<String>,
-    pub longitude: Spanned<String>,
-    pub height: Spanned<Amount>,
-}
 
 /// Which trajectory joins the rows of a study, and how.
 #[derive(Debug, Clone, PartialEq)]
@@ -121,14 +94,14 @@ impl TrajectoryPlan {
 pub(super) struct Joining<'p>(Option<(&'p TrajectoryPlan, Arc<Trajectory>)>);
 
 impl<'p> Joining<'p> {
-    pub fn of(
+    /// What a plan says, if it says something; `open` opens a table by its path.
+    pub fn of<'t>(
         plan: Option<&'p TrajectoryPlan>,
-        open: &mut OpenTable<'_>,
+        open: impl FnOnce(&str) -> Result<Box<dyn TableReader + 't>, DataError>,
         options: &Options,
     ) -> Result<Self, DataError> {
         let Some(plan) = plan else { return Ok(Self(None)) };
-        let mut reader = open(&plan.path, options)?;
-        Ok(Self(Some((plan, plan.read(&mut *reader, options)?))))
+        Ok(Self(Some((plan, plan.read(&mut *open(&plan.path)?, options)?))))
     }
 
     /// A table with what joins it.

@@ -6,7 +6,6 @@ use serde::Deserialize;
 use toml::Spanned;
 
 pub use super::kind::Kind;
-use super::trajectory::TrajectoryTable;
 use tables::units::Amount;
 
 /// Names with what is said of them, in the order of the alphabet.
@@ -423,4 +422,24 @@ pub(super) struct NextTable {
 pub(super) struct Site {
     pub latitude: Spanned<String>,
     pub longitude: Spanned<String>,
+}
+
+/// `[trajectory]`: poses that join the rows by time.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TrajectoryTable {
+    pub file: Spanned<String>,
+    pub time: String,
+    pub offset: Option<Spanned<String>>,
+    pub gap: Option<Spanned<String>>,
+    pub origin: Option<Origin>,
+}
+
+/// A place on the Earth with its height above the ellipsoid.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Origin {
+    pub latitude: Spanned<String>,
+    pub longitude: Spanned<String>,
+    pub height: Spanned<Amount>,
 }

@@ -195,6 +195,10 @@ fn what_is_wrong_with_a_trajectory_is_said_with_the_record_or_the_row() {
             "write offset = \"-400112000 s\"",
         ],
     );
-    refused("no column", &study.replace("\"gps_time [s]\"", "\"gps\""), &["no column `gps`", "`gps_time [s]`"]);
+    refused(
+        "no column",
+        &study.replace("\"gps_time [s]\"", "\"gps\""),
+        &["no column `gps`", "`gps_time [s]`"],
+    );
     refused("a key", &study.replace("offset =", "ofset ="), &["ofset"]);
 }

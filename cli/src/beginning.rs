@@ -45,6 +45,12 @@ impl Joined {
         Ok(Box::new(JoinedTable::new(points, Arc::clone(&self.trajectory), join).map_err(failure)?))
     }
 
+    /// What was assumed of the times, if that is more than what the files have.
+    pub fn said(&self) -> Option<String> {
+        let Offset { seconds, what } = self.offset?;
+        Some(format!("By their times {what}. The study adds {seconds} s to the times of the points."))
+    }
+
     /// As a study names it, by this path.
     pub fn named<'a>(&'a self, file: &'a str) -> init::Joined<'a> {
         init::Joined { file, time: &self.time, offset: self.offset, origin: self.trajectory.origin }

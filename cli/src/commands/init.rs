@@ -117,7 +117,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     {
         return describe(arguments, &robot, data);
     }
-    let open = || Ok::<_, Failure>(table(data, arguments.site())?);
+    let open = || table(data, arguments.site());
     let joined = arguments.trajectory.as_deref().map(|file| Joined::read(file, &mut *open()?)).transpose()?;
     let look = match &joined {
         Some(joined) => Look::at(&mut *joined.table(open()?)?)?,
@@ -168,7 +168,8 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     batch.write_text(&chain_file, &draft.chain)?;
     batch.write_text(&study_file, &study)?;
     batch.finish()?;
-    for remark in &remarks {
+    let of_times = joined.as_ref().and_then(Joined::said);
+    for remark in remarks.iter().chain(&of_times) {
         terminal::note(format_args!("note: {remark}"));
     }
     terminal::print_text(format!(

@@ -57,9 +57,9 @@ fn errors(folder: &Folder) -> Vec<(String, f64, f64)> {
 }
 
 /// From a table of points and a trajectory to the errors that were planted.
-fn recovered(test: &str, name: &str, planted: &[(&str, f64); 6], says: &[&str]) -> Folder {
+fn recovered(name: &str, planted: &[(&str, f64); 6], says: &[&str]) -> Folder {
     let files = [format!("{name}.csv"), format!("{name}.sbet")];
-    let folder = folder(test, name);
+    let folder = folder(name, name);
     let init = told(&folder, &["init", &files[0], &files[1], "--out", "study.toml"]);
     for says in says {
         assert!(init.stderr.contains(says), "{says}: {init}");
@@ -69,23 +69,21 @@ fn recovered(test: &str, name: &str, planted: &[(&str, f64); 6], says: &[&str]) 
     for (error, truth) in planted {
         let (_, estimate, sigma) = found.iter().find(|(own, ..)| own == error).expect("it was estimated");
         let truth = if error.starts_with("boresight") { truth.to_radians() } else { *truth };
-        // Level roads do not show how high a scanner sits, and the report says so.
-        if error == &"lever_down" {
-            continue;
-        }
         assert!(
             (estimate - truth).abs() < 3.5 * sigma,
             "{name}: {error}: {estimate} ± {sigma}, planted {truth}"
         );
-        assert!(*sigma < 0.02, "{name}: {error}: ± {sigma}");
+        // Level roads and roofs show the height of a scanner where its vehicle tilts.
+        let most = if *error == "lever_down" { 0.1 } else { 0.02 };
+        assert!(*sigma < most, "{name}: {error}: ± {sigma}");
     }
     folder
 }
 
 #[test]
 fn boresight_and_lever_arm_come_out_of_a_drive_and_of_a_flight() {
-    recovered("flight", "flight", &FLIGHT, &[]);
-    let folder = recovered("street", "street", &STREET, &["standard GPS time"]);
+    recovered("flight", &FLIGHT, &[]);
+    let folder = recovered("street", &STREET, &["standard GPS time"]);
     told(&folder, &["apply", "result/instrument.toml", "--data", "street.csv", "--out", "corrected.csv"]);
     let corrected = folder.read("corrected.csv");
     let rows = |column| crate::column(&corrected, column);
@@ -96,6 +94,7 @@ fn boresight_and_lever_arm_come_out_of_a_drive_and_of_a_flight() {
     let mean = road.iter().sum::<f64>() / road.len() as f64;
     let off = crate::rms(road.iter().map(|z| z - mean));
     assert!(off < 0.008, "{off} m");
+    trajectory_is_corrected(&folder);
 }
 
 /// The numbers of a file of records.
@@ -104,19 +103,18 @@ fn numbers(folder: &Folder, file: &str) -> Vec<f64> {
     bytes.chunks_exact(NUMBER).map(|own| f64::from_le_bytes(own.try_into().expect("8 bytes"))).collect()
 }
 
-#[test]
-fn a_corrected_trajectory_is_that_of_the_scanner_and_keeps_every_other_number() {
-    let folder = recovered("corrected-trajectory", "street", &STREET, &[]);
+/// The corrected trajectory is that of the scanner, and every other number stays.
+fn trajectory_is_corrected(folder: &Folder) {
     let run = told(
-        &folder,
+        folder,
         &["apply", "result/instrument.toml", "--data", "street.sbet", "--out", "corrected.sbet"],
     );
     assert!(run.stdout.starts_with("2001 records."), "{run}");
     assert!(run.stdout.contains("differs from the corrected trajectory by 0.000 mm and 0.000″"), "{run}");
-    let found = errors(&folder);
+    let found = errors(folder);
     let value = |name: &str| found.iter().find(|(own, ..)| own == name).expect("it was estimated").1;
     let lever = ["lever_forward", "lever_right", "lever_down"].map(value);
-    let [given, corrected] = ["street.sbet", "corrected.sbet"].map(|file| numbers(&folder, file));
+    let [given, corrected] = ["street.sbet", "corrected.sbet"].map(|file| numbers(folder, file));
     assert_eq!(given.len(), corrected.len());
     for (before, after) in given.chunks_exact(17).zip(corrected.chunks_exact(17)) {
         for at in [0, 4, 5, 6, 10, 11, 12, 13, 14, 15, 16] {

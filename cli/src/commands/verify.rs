@@ -1,6 +1,6 @@
 //! `trueaxis verify`: whether a calibration is still valid.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use service::verify::{self, Asked, FALSE_ALARM};
 
@@ -39,9 +39,10 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let instrument = source::instrument(&arguments.instrument)?;
     let asked = Asked { goal: arguments.goal.as_deref(), false_alarm: arguments.false_alarm };
     let file = arguments.data.display().to_string();
-    let beside = arguments.data.parent().unwrap_or(Path::new("")).to_owned();
     // What is not the data is the trajectory that joins them, as the study names it.
-    let path = |name: &str| if name == file { arguments.data.clone() } else { beside.join(name) };
+    let path = |name: &str| {
+        if name == file { arguments.data.clone() } else { table_files::beside(&arguments.data, name) }
+    };
     let mut open =
         |name: &str, options: &tables::formats::Options| table_files::open_table(&path(name), options);
     table_files::known_format(&arguments.data)?;

@@ -1,6 +1,6 @@
 //! The trajectory that joins the rows of a table, as a file.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use study::TrajectoryPlan;
@@ -17,6 +17,16 @@ pub struct Joining {
     trajectory: Arc<Trajectory>,
 }
 
+/// Where the trajectory of some data is by default: as the study of other data names it, or by its name alone, beside these data.
+pub fn beside(data: &Path, named: &str) -> PathBuf {
+    let folder = data.parent().unwrap_or(Path::new(""));
+    let as_named = folder.join(named);
+    match Path::new(named).file_name() {
+        Some(name) if !as_named.exists() => folder.join(name),
+        _ => as_named,
+    }
+}
+
 impl Joining {
     /// Reads the trajectory of a plan: the file that is named, or else the plan's beside the data.
     ///
@@ -28,7 +38,7 @@ impl Joining {
         data: &Path,
         options: &Options,
     ) -> Result<Self, Failure> {
-        let beside = data.parent().unwrap_or(Path::new("")).join(&plan.path);
+        let beside = beside(data, &plan.path);
         if named.is_none() && !beside.exists() {
             return Err(Failure::Input(format!(
                 "`{}` is not there, and the study joins its rows with a trajectory: name that of these rows with --trajectory",

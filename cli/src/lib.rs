@@ -1,5 +1,6 @@
 //! The `trueaxis` command as a library: arguments in, exit code out. What a command does stands in `commands`.
 
+mod beginning;
 mod budget;
 mod calibrating;
 mod certificates;
@@ -29,6 +30,7 @@ mod streaming;
 mod table_files;
 mod terminal;
 mod told;
+mod trajectory;
 mod waiting;
 mod whole;
 

@@ -77,11 +77,12 @@ fn held(diagnosis: &Diagnosis, plan: &Plan) -> Vec<SymbolId> {
     names.filter_map(|name| plan.chain.find_symbol(name)).collect()
 }
 
-/// Whether a part of the rows can stand for all: not where they observe what nobody knows, or several things, or where readings are
-/// uncertain, which rows that are read chunk by chunk do not follow.
+/// Whether a part of the rows can stand for all: not where they observe what nobody knows, or several things, where poses join them, or where
+/// readings are uncertain, which rows that are read chunk by chunk do not follow.
 fn may_be_drawn(plan: &Plan) -> bool {
     let has_objects = |source: &SourcePlan| source.measure.observes_object();
     plan.sources.len() == 1
+        && plan.trajectory.is_none()
         && plan.hold_out.file.is_none()
         && !plan.sources.iter().any(has_objects)
         && !plan.has_uncertain_readings()

@@ -13,10 +13,12 @@ use service::errors_file::{self, FoundOver};
 use service::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use service::readings::{ReadingsTable, Rows};
 use service::source::observables;
+use study::TrajectoryPlan;
 use tables::formats::{Column, Options};
 
 use crate::failure::Failure;
 use crate::source::{self, Declared};
+use crate::table_files::Joining;
 use crate::{output, table_files, terminal};
 
 /// What is evaluated over which table, and where to.
@@ -36,6 +38,9 @@ pub struct OverTable {
     /// What lines of the data begin with that are comments, where there are any below the header
     #[arg(long, value_name = "LETTER", value_parser = comment_mark)]
     pub comment: Option<u8>,
+    /// The trajectory that joins the rows, of an instrument whose study has one; default: the study's, beside the data
+    #[arg(long, value_name = "SBET")]
+    trajectory: Option<PathBuf>,
     /// Where to write: a .csv or .parquet file, or - for standard output
     #[arg(long, value_name = "OUT")]
     pub out: PathBuf,
@@ -90,7 +95,9 @@ impl OverTable {
         let headings = instrument.as_ref().and_then(|instrument| instrument.headings.as_ref());
         let options = headings.map_or_else(Options::default, |headings| headings.format);
         let options = Options { comment: self.comment.or(options.comment), ..options };
-        let mut table = table_files::open_kept(&self.data, &chain, options)?;
+        let plan = headings.and_then(|headings| headings.trajectory.as_ref());
+        let joining = self.joining(plan, &options)?;
+        let mut table = table_files::open_kept(&self.data, &chain, options, joining)?;
         if let Some(headings) = headings {
             let named = match self.observable.as_slice() {
                 [] => Vec::new(),
@@ -99,6 +106,18 @@ impl OverTable {
             table = table.headed_by(headings, &named);
         }
         Ok(Opened { chain, values, found, instrument, table })
+    }
+
+    /// The trajectory that joins the rows, if one does.
+    fn joining(&self, plan: Option<&TrajectoryPlan>, options: &Options) -> Result<Option<Joining>, Failure> {
+        match (plan, &self.trajectory) {
+            (Some(plan), own) => Joining::read(plan, own.as_deref(), &self.data, options).map(Some),
+            (None, None) => Ok(None),
+            (None, Some(_)) => Err(Failure::Input(format!(
+                "`{}` has no study with a [trajectory]: leave --trajectory out",
+                self.chain.display()
+            ))),
+        }
     }
 
     /// Reads the declaration and the errors. Data may be replaced: the points of a cloud are corrected in their own place.

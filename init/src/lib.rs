@@ -8,6 +8,7 @@ mod frame;
 pub mod links;
 mod look;
 mod machine_tools;
+mod mounting;
 mod observed;
 mod otherwise;
 mod placed;
@@ -19,7 +20,7 @@ mod words;
 
 pub use look::Look;
 pub use otherwise::otherwise;
-pub use study::{Names, study};
+pub use study::{Joined, Names, study};
 pub use templates::Template;
 
 use ::study::{Open, Plan, Sample, Study};
@@ -63,6 +64,8 @@ pub struct Draft {
     estimate: Vec<&'static str>,
     /// Where the fit starts: an error, and its value as the study writes it.
     start: Vec<(&'static str, String)>,
+    /// How large errors may be, where these are larger than those of an instrument usually are: patterns of names, with their sizes.
+    tolerance: &'static [(&'static str, &'static str)],
     /// Side quantities that effects may use.
     inputs: Vec<String>,
     /// Whether the rows follow each other as they were taken, so that the sense of a motion is seen.

@@ -1,5 +1,7 @@
 //! A table as `init` looks at it: its columns with what their names and numbers say.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use model_core::Quantity;
 use model_core::unit::{Measures, Unit};
 use tables::formats::{Cells, ColumnName, DataError, Form, TableReader, Texts, Wanted, sexagesimal};
@@ -30,6 +32,7 @@ pub struct Look {
 }
 
 /// One of its columns.
+#[derive(Debug, Clone)]
 pub struct Column {
     pub name: ColumnName,
     words: Vec<String>,
@@ -41,6 +44,8 @@ pub struct Column {
     no_number: Option<usize>,
     /// How many different texts it holds.
     pub different: usize,
+    /// Which of them each cell has, where they are labels.
+    labels: Vec<u32>,
     rows: usize,
 }
 
@@ -105,6 +110,13 @@ impl Look {
             remarks: reader.remarks(),
             lacks: reader.lacks().map(str::to_owned),
         })
+    }
+
+    /// The same without the columns of some names.
+    pub(crate) fn without(&self, names: &[&str]) -> Self {
+        let other = |column: &&Column| !names.contains(&column.name.stem.as_str());
+        let columns = self.columns.iter().filter(other).cloned().collect();
+        Self { file: self.file.clone(), columns, remarks: Vec::new(), lacks: None, latitude_deg: None }
     }
 
     /// The columns of some parts: those that hold numbers, or else those that only their names speak for.
@@ -242,8 +254,22 @@ impl Column {
         let read = |text: &str| number(text).or_else(|| sexagesimal(text, in_si));
         let numbers = texts.iter().map(read).collect();
         let no_number = texts.iter().position(|text| read(text).is_none());
-        let different: std::collections::BTreeSet<&str> = texts.iter().map(str::trim).collect();
-        Self { name, words, unit, numbers, no_number, different: different.len(), rows: texts.len() }
+        let different: BTreeSet<&str> = texts.iter().map(str::trim).collect();
+        let mut column = Self {
+            name,
+            words,
+            unit,
+            numbers,
+            no_number,
+            different: different.len(),
+            labels: Vec::new(),
+            rows: texts.len(),
+        };
+        if column.labels_rows() {
+            let numbers: BTreeMap<&str, u32> = different.into_iter().zip(0..).collect();
+            column.labels = texts.iter().filter_map(|text| numbers.get(text.trim()).copied()).collect();
+        }
+        column
     }
 
     /// What it is of.
@@ -271,6 +297,16 @@ impl Column {
     /// Whether its cells are labels, which come again in other rows: as often as twice on average.
     pub fn labels_rows(&self) -> bool {
         self.different > 1 && 2 * self.different <= self.rows
+    }
+
+    /// Which of its texts each cell has, where they are labels.
+    pub fn labels(&self) -> &[u32] {
+        &self.labels
+    }
+
+    /// Whether its name has a word.
+    pub fn has_word(&self, word: &str) -> bool {
+        self.words.iter().any(|own| own == word)
     }
 
     /// Whether each row has a value of its own.

@@ -20,6 +20,8 @@ pub enum Observed {
     Range(Read),
     /// An unknown target that one column names, from the station that another names, if there are several.
     Target(String, Option<String>),
+    /// Points of unknown planes that one column names.
+    Plane(String),
 }
 
 impl Observed {
@@ -118,7 +120,12 @@ impl Observed {
             Self::Direction([x, y, z]) => {
                 Some(x.si.iter().zip(&y.si).zip(&z.si).map(|((&x, &y), &z)| [x, y, z]).collect())
             }
-            Self::Azimuth(_) | Self::Offset(_) | Self::Point(_) | Self::Range(_) | Self::Target(..) => None,
+            Self::Azimuth(_)
+            | Self::Offset(_)
+            | Self::Point(_)
+            | Self::Range(_)
+            | Self::Target(..)
+            | Self::Plane(_) => None,
         }
     }
 }

@@ -341,6 +341,7 @@ pub fn draft(description: &Description, tip: Option<&str>, look: &Look) -> Resul
         turned: turned.map(|turned| ("turned", turned)),
         estimate,
         start,
+        tolerance: &[],
         inputs: Vec::new(),
         is_in_order: false,
         unfollowed: None,

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use model_core::escape::comments;
 use tables::formats::Site;
+use tables::trajectory::{Geodetic, Offset};
 
 use super::look::Read;
 use super::words::Part;
@@ -23,12 +24,27 @@ pub struct Names<'a> {
     pub command: &'a str,
     /// Where the instrument stands, if that was said.
     pub site: Option<Site>,
+    /// What joins the rows by time, if something does.
+    pub trajectory: Option<Joined<'a>>,
+}
+
+/// A trajectory as a study names it.
+#[derive(Debug, Clone, Copy)]
+pub struct Joined<'a> {
+    /// The path.
+    pub file: &'a str,
+    /// The column of the data that has the times.
+    pub time: &'a str,
+    /// What is added to these times, s, and why.
+    pub offset: Option<Offset>,
+    /// The place that is zero.
+    pub origin: Geodetic,
 }
 
 /// The study of a draft.
 #[must_use]
 pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
-    let Names { chain, data, command, site } = names;
+    let Names { chain, data, command, site, trajectory } = names;
     let mut text = format!("# Begun by trueaxis init: {}\n", comments::line(command));
     for remark in &draft.remarks {
         let _ = writeln!(text, "# {}", comments::line(remark));
@@ -44,6 +60,9 @@ pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
     if let Some(id) = named_rows(look) {
         let _ = writeln!(text, "id         = {}", quoted(&id));
     }
+    if let Some(joined) = trajectory {
+        text.push_str(&trajectory_table(joined));
+    }
     text.push_str("\n[columns]\n");
     let width = draft.columns.iter().map(|(name, _)| name.len()).max().unwrap_or_default();
     for (name, read) in &draft.columns {
@@ -58,6 +77,7 @@ pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
         Observed::Point(read) => ("point", ["x", "y", "z"].into_iter().zip(read).collect()),
         Observed::Range(read) => ("range", vec![("range", read)]),
         Observed::Target(..) => ("target", Vec::new()),
+        Observed::Plane(_) => ("plane", Vec::new()),
     };
     let _ = writeln!(text, "kind = \"{kind}\"");
     for (key, read) in columns {
@@ -69,6 +89,9 @@ pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
             let _ = writeln!(text, "station = {}", quoted(station));
         }
     }
+    if let Observed::Plane(object) = &draft.observed {
+        let _ = writeln!(text, "object = {}", quoted(object));
+    }
     let groups = groups(look);
     if !groups.is_empty() {
         text.push_str(
@@ -76,7 +99,7 @@ pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
         );
         let _ = writeln!(text, "group = {}", list(groups.iter().map(String::as_str)));
     }
-    if !draft.estimate.is_empty() || !draft.start.is_empty() {
+    if !draft.estimate.is_empty() || !draft.start.is_empty() || !draft.tolerance.is_empty() {
         text.push_str("\n[fit]\n");
         if !draft.estimate.is_empty() {
             let _ = writeln!(text, "estimate = {}", list(draft.estimate.iter().copied()));
@@ -85,6 +108,14 @@ pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
             draft.start.iter().map(|(name, value)| format!("{name} = {}", quoted(value))).collect();
         if !starts.is_empty() {
             let _ = writeln!(text, "start = {{ {} }}", starts.join(", "));
+        }
+        let sizes: Vec<String> = draft
+            .tolerance
+            .iter()
+            .map(|(name, size)| format!("{} = {}", quoted(name), quoted(size)))
+            .collect();
+        if !sizes.is_empty() {
+            let _ = writeln!(text, "tolerance = {{ {} }} # how large these may be", sizes.join(", "));
         }
     }
     if !draft.inputs.is_empty() || draft.is_in_order {
@@ -96,7 +127,10 @@ pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
     if !draft.inputs.is_empty() {
         let _ = writeln!(text, "inputs = {}", list(draft.inputs.iter().map(String::as_str)));
     }
-    let good = if matches!(draft.observed, Observed::Point(_) | Observed::Range(_) | Observed::Target(..)) {
+    let good = if matches!(
+        draft.observed,
+        Observed::Point(_) | Observed::Range(_) | Observed::Target(..) | Observed::Plane(_)
+    ) {
         "0.1 mm"
     } else {
         "5 arcsec"
@@ -124,6 +158,26 @@ pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
             let _ = writeln!(text, "{key} = {}", column(read));
         }
     }
+    text
+}
+
+/// `[trajectory]`
+fn trajectory_table(Joined { file, time, offset, origin }: Joined<'_>) -> String {
+    let mut text = format!(
+        "\n[trajectory] # gives each row east, north, up, heading, pitch and roll by its time; the origin is east, north and up zero\n\
+         file   = {}\ntime   = {}\n",
+        quoted(file),
+        quoted(time)
+    );
+    if let Some(Offset { seconds, what }) = offset {
+        let _ = writeln!(text, "offset = \"{seconds} s\" # {what}");
+    }
+    let [latitude, longitude] = [origin.latitude_rad, origin.longitude_rad].map(f64::to_degrees);
+    let _ = writeln!(
+        text,
+        "origin = {{ latitude = \"{latitude:.5} deg\", longitude = \"{longitude:.5} deg\", height = \"{:.1} m\" }}",
+        origin.height_m
+    );
     text
 }
 

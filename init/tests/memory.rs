@@ -29,6 +29,7 @@ fn a_table_in_memory_becomes_a_declaration_and_a_study_that_read_it() {
         data: "table.csv",
         command: "trueaxis calibrate a.toml\n[fit]",
         site: None,
+        trajectory: None,
     };
     let study = study(&draft, &look, names);
     assert!(study.starts_with("# Begun by trueaxis init: trueaxis calibrate a.toml [fit]\n"), "{study}");

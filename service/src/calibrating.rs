@@ -98,7 +98,8 @@ impl Studied {
     /// Every table that the study names, as it names them.
     pub fn tables(&self) -> impl Iterator<Item = &str> {
         let data = self.plan.sources.iter().flat_map(|source| &source.paths);
-        data.chain(&self.plan.hold_out.file).map(String::as_str)
+        let trajectory = self.plan.trajectory.as_ref().map(|own| &own.path);
+        data.chain(&self.plan.hold_out.file).chain(trajectory).map(String::as_str)
     }
 
     /// Reads the tables; warns of columns whose numbers are hardly in SI.

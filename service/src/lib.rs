@@ -24,6 +24,7 @@ pub mod report_files;
 pub mod sensitivity;
 pub mod source;
 pub mod tolerance;
+pub mod trajectory;
 pub mod verify;
 mod warn;
 

@@ -45,21 +45,23 @@ impl Study {
 
 /// Where the instrument stands.
 fn site(written: &WrittenSite) -> Outcome<Site> {
-    let angle = |text: &Spanned<String>, most_deg: f64| {
-        let degrees = units::parse(text.get_ref(), Quantity::Angle).map(f64::to_degrees);
-        match degrees {
-            Ok(degrees) if degrees.abs() <= most_deg => Ok(degrees),
-            Ok(degrees) => {
-                let help = format!("write an angle from -{most_deg} deg to {most_deg} deg");
-                Err(mistake(text.span(), format!("{degrees:.3} deg is no such angle"), help))
-            }
-            Err(error) => Err(mistake(text.span(), error.to_string(), "write an angle, as \"48.5 deg\"")),
-        }
-    };
     Ok(Site {
         latitude_deg: angle(&written.latitude, 90.0)?,
         longitude_deg: angle(&written.longitude, 360.0)?,
     })
+}
+
+/// An angle of a place, in degrees.
+pub(super) fn angle(text: &Spanned<String>, most_deg: f64) -> Outcome<f64> {
+    let degrees = units::parse(text.get_ref(), Quantity::Angle).map(f64::to_degrees);
+    match degrees {
+        Ok(degrees) if degrees.abs() <= most_deg => Ok(degrees),
+        Ok(degrees) => {
+            let help = format!("write an angle from -{most_deg} deg to {most_deg} deg");
+            Err(mistake(text.span(), format!("{degrees:.3} deg is no such angle"), help))
+        }
+        Err(error) => Err(mistake(text.span(), error.to_string(), "write an angle, as \"48.5 deg\"")),
+    }
 }
 
 /// `8 GiB` or `500 MiB`, in bytes.

@@ -9,6 +9,7 @@ use super::mistakes::{Gathered, Outcome, Several, every, mistake};
 use super::order::{order_of, times};
 use super::plan::{Reading, SourcePlan};
 use super::shown;
+use super::trajectory::TrajectoryPlan;
 use super::written::Study;
 use observe::kinds::{Cells, Filled};
 use observe::{Derived, direction_from_spherical, spherical_of_direction};
@@ -25,6 +26,8 @@ pub struct Headings {
     pub order: Option<String>,
     /// How the files are written.
     pub format: Options,
+    /// What joins the rows by time.
+    pub trajectory: Option<TrajectoryPlan>,
 }
 
 /// From what the values of a joint or input come.
@@ -90,8 +93,9 @@ impl Study {
         let mut mistakes = Gathered::default();
         let sources = mistakes.take(self.sources(&chain));
         let format = mistakes.take(self.format());
+        let trajectory = mistakes.take(self.trajectory());
         mistakes.none()?;
-        let (Some(sources), Some(format)) = (sources, format) else {
+        let (Some(sources), Some(format), Some(trajectory)) = (sources, format, trajectory) else {
             unreachable!("what is missing comes with a mistake")
         };
         // What is written in a unit is not read first, which would refuse a unit of something else.
@@ -104,7 +108,8 @@ impl Study {
                 Err::<(), _>(mistake(observed.span(), message, help))
             })
         }))?;
-        Ok(Headings { chain: shown::vectors(chain), sources, order: self.noise.order.clone(), format })
+        let order = self.noise.order.clone();
+        Ok(Headings { chain: shown::vectors(chain), sources, order, format, trajectory })
     }
 }
 

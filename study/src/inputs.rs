@@ -216,3 +216,10 @@ fn input(name: &str, quantity: Quantity) -> Symbol {
         value: None,
     }
 }
+
+/// The joints and inputs that an observable depends on.
+pub(super) fn needed(chain: &Chain, observable: ObservableId) -> Vec<SymbolId> {
+    let mut symbols = chain.symbols_of_way(observable);
+    symbols.retain(|&id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input));
+    symbols
+}

@@ -10,6 +10,7 @@ use super::column_plan::{ColumnPlan, column_plan};
 use super::estimated::{estimable, matching};
 use super::frozen::Frozen;
 use super::hold_out::HoldOut;
+use super::inputs::needed;
 use super::mistakes::{Gathered, Outcome, Several, every, mistake, plain, unknown, within};
 use super::next::NextPoses;
 use super::observed::{ObservedColumns, observed_columns};
@@ -17,6 +18,7 @@ use super::orientation;
 use super::shown::{self, Convention};
 use super::sights;
 use super::timeless::{Timeless, timeless};
+use super::trajectory::TrajectoryPlan;
 use super::uncertain_readings::{UncertainReadings, uncertain};
 use super::unsought::{Unsought, unsought};
 use super::unstated::{Unstated, unstated};
@@ -69,6 +71,8 @@ pub struct Plan {
     pub(super) target: Vec<String>,
     pub(super) order: Option<String>,
     pub(super) format: Options,
+    /// What joins the rows by time.
+    pub trajectory: Option<TrajectoryPlan>,
 }
 
 impl Plan {
@@ -180,6 +184,7 @@ impl Study {
         let hold_out = mistakes.take(self.held_out());
         let next = mistakes.take(self.next(&chain));
         let format = mistakes.take(self.format());
+        let trajectory = mistakes.take(self.trajectory());
         let sigma = sources.as_ref().and_then(|sources| mistakes.take(self.stated_sigma(sources)));
         let observables: Option<Vec<ObservableId>> =
             sources.as_ref().map(|sources| sources.iter().map(|source| source.observable).collect());
@@ -215,9 +220,10 @@ impl Study {
             Some(plausible),
             Some(reference),
             Some(asked),
+            Some(trajectory),
         ) = (
             sources, fit, search, frozen, hold_out, next, format, sigma, places, sizes, plausible, reference,
-            asked,
+            asked, trajectory,
         )
         else {
             unreachable!("what is missing comes with a mistake")
@@ -257,6 +263,7 @@ impl Study {
             target: self.target_columns(),
             order,
             format,
+            trajectory,
             chain,
         })
     }
@@ -439,11 +446,4 @@ impl Study {
         let rest = FitOptions::for_chain(chain);
         Ok(FitOptions { estimate, start, robust: self.fit.robust, noise, max_iterations, ..rest })
     }
-}
-
-/// The joints and inputs that an observable depends on.
-fn needed(chain: &Chain, observable: ObservableId) -> Vec<SymbolId> {
-    let mut symbols = chain.symbols_of_way(observable);
-    symbols.retain(|&id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input));
-    symbols
 }

@@ -36,6 +36,8 @@ pub struct Study {
     pub memory: Option<Spanned<String>>,
     /// Where the instrument stands, for files that give a time and no place.
     pub(super) site: Option<Site>,
+    /// What says where a vehicle was at the time of each row.
+    pub(super) trajectory: Option<TrajectoryTable>,
     /// Which column is which joint or input.
     #[serde(default)]
     pub(super) columns: Table<Column>,
@@ -420,4 +422,24 @@ pub(super) struct NextTable {
 pub(super) struct Site {
     pub latitude: Spanned<String>,
     pub longitude: Spanned<String>,
+}
+
+/// `[trajectory]`: poses that join the rows by time.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TrajectoryTable {
+    pub file: Spanned<String>,
+    pub time: String,
+    pub offset: Option<Spanned<String>>,
+    pub gap: Option<Spanned<String>>,
+    pub origin: Option<Origin>,
+}
+
+/// A place on the Earth with its height above the ellipsoid.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Origin {
+    pub latitude: Spanned<String>,
+    pub longitude: Spanned<String>,
+    pub height: Spanned<Amount>,
 }

@@ -34,7 +34,7 @@ pub fn begin(asked: &Message, tell: Tell<'_>, warn: &dyn Fn(String)) -> Answered
     let stem = Path::new(name).file_stem().map_or_else(|| name.into(), |stem| stem.to_string_lossy());
     let (chain_name, study_name) = (format!("{stem}.chain"), format!("{stem}.toml"));
     let command = format!("trueaxis calibrate {}", report::shell_word(&study_name));
-    let names = Names { chain: &chain_name, data: name, command: &command, site: None };
+    let names = Names { chain: &chain_name, data: name, command: &command, site: None, trajectory: None };
     let Begun { study, remarks, doubtful } =
         begun(&draft, &look, names, &mut |_| Ok(Input::from(bytes.to_vec())))?;
     doubtful.into_iter().for_each(warn);

@@ -128,7 +128,7 @@ fn readings(
     observable: ObservableId,
     path: &Path,
 ) -> Result<Vec<(SymbolId, Vec<f64>)>, Failure> {
-    let mut table = table_files::open_kept(path, chain, Options::default())?;
+    let mut table = table_files::open_kept(path, chain, Options::default(), None)?;
     let needed = readings_of(chain, observable);
     table.want(chain, &needed)?;
     let mut found: Vec<(SymbolId, Vec<f64>)> = needed.iter().map(|&id| (id, Vec::new())).collect();

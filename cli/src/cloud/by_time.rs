@@ -46,7 +46,7 @@ impl<'c> Opened<'c> {
         time: Option<&str>,
         comment: Option<u8>,
     ) -> Result<Self, Failure> {
-        let table = table_files::open_readings(path, chain, Options { comment, ..Options::default() })?;
+        let table = table_files::open_readings(path, chain, Options { comment, ..Options::default() }, None)?;
         let wanted = time.map_or_else(|| vec![TIME, "time"], |time| vec![time]);
         let stands = |name: &&str| table.header().iter().any(|column| table.means(column, name));
         let there: Vec<&str> = wanted.into_iter().filter(stands).collect();

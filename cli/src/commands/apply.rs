@@ -13,12 +13,8 @@ use super::Answer;
 #[cfg(feature = "point-clouds")]
 use crate::cloud;
 use crate::failure::Failure;
-#[cfg(feature = "point-clouds")]
-use crate::output;
-#[cfg(feature = "point-clouds")]
-use crate::over_table::Model;
-use crate::over_table::{Opened, OverTable};
-use crate::{posing, solving, table_files, terminal};
+use crate::over_table::{Model, Opened, OverTable};
+use crate::{output, posing, solving, table_files, terminal, trajectory};
 
 /// Correct new data with a calibrated model.
 ///
@@ -39,6 +35,9 @@ use crate::{posing, solving, table_files, terminal};
 ///
 /// With a point cloud, a .las or .laz file whose coordinates were computed without the errors, it moves every point to where the
 /// errors have it and keeps every other byte. Readings stand in extra dimensions of the points, or in a table by GPS time.
+///
+/// With a trajectory, an SBET file, of an instrument whose study joins rows with one, it corrects every position and attitude by lever arm and
+/// boresight, and keeps every other number: with the nominal mounting the corrected trajectory gives the calibrated points.
 ///
 /// Example: trueaxis apply result/instrument.toml --data new.csv --out corrected.csv
 #[derive(Debug, clap::Args)]
@@ -123,6 +122,10 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         correct_cloud(arguments)?;
         return Ok(Answer::Done);
     }
+    if trajectory::is_one_of(&arguments.table.data) {
+        correct_trajectory(arguments)?;
+        return Ok(Answer::Done);
+    }
     let of_clouds =
         [("--readings", arguments.readings.is_some()), ("--tolerance", arguments.tolerance.is_some())];
     if let Some((option, _)) = of_clouds.iter().find(|(_, is_given)| *is_given)
@@ -149,20 +152,44 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     Ok(Answer::Done)
 }
 
-#[cfg(feature = "point-clouds")]
-fn correct_cloud(arguments: &Arguments) -> Result<(), Failure> {
-    let table = &arguments.table;
+/// Refuses what only tables have.
+fn no_table(arguments: &Arguments, what: &str) -> Result<(), Failure> {
     let of_tables = [
         ("--as", arguments.form.is_some()),
         ("--correction", arguments.correction),
         ("--uncertainty", arguments.uncertainty),
         ("--solve", arguments.solve),
     ];
-    if let Some((option, _)) = of_tables.iter().find(|(_, is_given)| *is_given) {
-        return Err(Failure::Input(format!(
-            "{option} is for tables, and the points of a cloud keep the dimensions that they have: leave it out"
-        )));
+    match of_tables.iter().find(|(_, is_given)| *is_given) {
+        Some((option, _)) => Err(Failure::Input(format!("{option} is for tables, and {what}: leave it out"))),
+        None => Ok(()),
     }
+}
+
+fn correct_trajectory(arguments: &Arguments) -> Result<(), Failure> {
+    no_table(arguments, "a trajectory keeps the numbers that it has")?;
+    let table = &arguments.table;
+    output::refuse_to_replace(&table.out, [table.data.as_path()])?;
+    let Model { instrument, .. } = table.model()?;
+    let instrument = instrument.ok_or_else(|| {
+        Failure::Input(format!(
+            "`{}` is a declaration, and a trajectory is corrected by the instrument file that `calibrate` writes: give that one",
+            table.chain().display()
+        ))
+    })?;
+    let said = trajectory::correct(&instrument, &table.data, &table.out)?;
+    if table.out.is_file() {
+        terminal::print_text(said)
+    } else {
+        said.lines().for_each(terminal::note);
+        Ok(())
+    }
+}
+
+#[cfg(feature = "point-clouds")]
+fn correct_cloud(arguments: &Arguments) -> Result<(), Failure> {
+    let table = &arguments.table;
+    no_table(arguments, "the points of a cloud keep the dimensions that they have")?;
     let read = [&table.data].into_iter().chain(&arguments.readings);
     output::refuse_to_replace(&table.out, read.map(PathBuf::as_path))?;
     let Model { chain, values, found, .. } = table.model()?;

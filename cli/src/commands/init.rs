@@ -12,11 +12,12 @@ use report::shell_word;
 use report::wrap::paragraph;
 use service::beginning::{Begun, begun};
 use tables::dh::{self, Dh};
-use tables::formats::{Options, Site};
+use tables::formats::{Options, Site, TableReader};
 use tables::ur::{self, Deltas};
 use tables::urdf::Robot;
 
 use super::Answer;
+use crate::beginning::Joined;
 use crate::failure::Failure;
 use crate::{output, source, table_files, terminal};
 
@@ -38,6 +39,9 @@ pub struct Arguments {
     /// Measured data, or a robot's description alone
     #[arg(required_unless_present_any = ["list", "robot"])]
     data: Option<PathBuf>,
+    /// The trajectory of a vehicle with a scanner: an SBET file, or a table by time
+    #[arg(requires = "data", conflicts_with = "robot")]
+    trajectory: Option<PathBuf>,
     /// The kind of instrument, where the header does not say it plainly
     #[arg(long, value_name = "NAME", value_parser = TEMPLATES.iter().map(|template| template.name).collect::<Vec<_>>())]
     template: Option<String>,
@@ -113,7 +117,12 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     {
         return describe(arguments, &robot, data);
     }
-    let look = look(data, arguments.site())?;
+    let open = || table(data, arguments.site());
+    let joined = arguments.trajectory.as_deref().map(|file| Joined::read(file, &mut *open()?)).transpose()?;
+    let look = match &joined {
+        Some(joined) => Look::at(&mut *joined.table(open()?)?)?,
+        None => Look::at(&mut *open()?)?,
+    };
     let (name_of, what, draft) = match &robot {
         Some(robot) => (
             "robot",
@@ -121,7 +130,8 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
             init::robot::draft(robot, arguments.tip.as_deref(), &look)?,
         ),
         None => {
-            let named = arguments.template.as_deref().and_then(templates::named);
+            let named = arguments.template.as_deref().or(joined.as_ref().map(|_| "vehicle"));
+            let named = named.and_then(templates::named);
             let (template, draft) = init::draft(&look, named)?;
             (template.name, template.what.to_owned(), draft)
         }
@@ -137,20 +147,29 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         )));
     }
     not_there(written)?;
+    let data_named = beside(&study_file, data)?;
+    let trajectory_named = joined.as_ref().map(|joined| beside(&study_file, &joined.file)).transpose()?;
+    let trajectory =
+        joined.as_ref().zip(trajectory_named.as_deref()).map(|(joined, file)| joined.named(file));
     let names = init::Names {
         chain: &name(&chain_file)?,
-        data: &beside(&study_file, data)?,
+        data: &data_named,
         command: &format!("trueaxis calibrate {}", shell_word(&text(&study_file)?)),
         site: arguments.site(),
+        trajectory,
     };
-    let Begun { study, remarks, doubtful } =
-        begun(&draft, &look, names, &mut |_| table_files::open_named(data, None))?;
+    let mut again = |name: &str| {
+        let trajectory = arguments.trajectory.as_deref().filter(|_| name != data_named);
+        table_files::open_named(trajectory.unwrap_or(data), None)
+    };
+    let Begun { study, remarks, doubtful } = begun(&draft, &look, names, &mut again)?;
     doubtful.into_iter().for_each(terminal::warn);
     let mut batch = output::Batch::default();
     batch.write_text(&chain_file, &draft.chain)?;
     batch.write_text(&study_file, &study)?;
     batch.finish()?;
-    for remark in &remarks {
+    let of_times = joined.as_ref().and_then(Joined::said);
+    for remark in remarks.iter().chain(&of_times) {
         terminal::note(format_args!("note: {remark}"));
     }
     terminal::print_text(format!(
@@ -237,8 +256,8 @@ fn not_there<'p>(files: impl IntoIterator<Item = &'p PathBuf>) -> Result<(), Fai
     })
 }
 
-/// The data as they are looked at.
-fn look(data: &Path, site: Option<Site>) -> Result<Look, Failure> {
+/// The data, opened to be looked at.
+fn table(data: &Path, site: Option<Site>) -> Result<Box<dyn TableReader>, Failure> {
     if data.extension().is_some_and(|ending| ending == "chain" || ending == "toml") {
         return Err(Failure::Input(format!(
             "`{}` is no table: give the table of measured data, as in `trueaxis init data.csv`",
@@ -246,8 +265,7 @@ fn look(data: &Path, site: Option<Site>) -> Result<Look, Failure> {
         )));
     }
     let options = Options { site, ..Options::default() };
-    let mut reader = table_files::open_table(data, &options).map_err(table_files::failure)?;
-    Ok(Look::at(&mut *reader)?)
+    table_files::open_table(data, &options).map_err(table_files::failure)
 }
 
 /// A path as a study says it.

@@ -38,9 +38,13 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let instrument = source::instrument(&arguments.instrument)?;
     let asked = Asked { goal: arguments.goal.as_deref(), false_alarm: arguments.false_alarm };
-    let path = arguments.data.clone();
-    let mut open = move |_: &str, options: &tables::formats::Options| table_files::open_table(&path, options);
     let file = arguments.data.display().to_string();
+    // What is not the data is the trajectory that joins them, as the study names it.
+    let path = |name: &str| {
+        if name == file { arguments.data.clone() } else { table_files::beside(&arguments.data, name) }
+    };
+    let mut open =
+        |name: &str, options: &tables::formats::Options| table_files::open_table(&path(name), options);
     table_files::known_format(&arguments.data)?;
     let verified = verify::verify(&instrument, &file, &mut open, &asked, &terminal::warn)?;
     match arguments.format {

@@ -1,6 +1,7 @@
 //! Tables of data as files: opened by the ending of their name, read in chunks, written whole.
 
 mod files;
+mod joining;
 mod readings;
 mod write;
 
@@ -14,6 +15,7 @@ use tables::formats::{self, DataError, Input, Options, TableReader};
 use crate::failure::Failure;
 use crate::source;
 pub use files::Files;
+pub use joining::{Joining, beside};
 pub use readings::open_kept;
 #[cfg(feature = "point-clouds")]
 pub use readings::open_readings;

@@ -5,6 +5,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod drives;
 mod machines;
 mod spoiled;
 

@@ -98,6 +98,7 @@ fn the_templates_are_listed() {
         "machine",
         "ball-bar",
         "r-test",
+        "vehicle",
     ] {
         assert!(run.stdout.contains(name), "{run}");
     }

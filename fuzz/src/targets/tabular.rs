@@ -51,7 +51,7 @@ fn every_column(mut reader: Box<dyn TableReader + '_>, form: Form) {
 /// A file of observations in the form of another program, with numbers wanted of every column.
 pub fn observations(input: &[u8]) {
     let site = Some(Site { latitude_deg: 48.0, longitude_deg: 11.0 });
-    for (file, site) in [("f.dat", None), ("f.csv", site)] {
+    for (file, site) in [("f.dat", None), ("f.csv", site), ("f.sbet", None)] {
         match formats::open(input, file, &Options { site, ..Options::default() }) {
             Ok(reader) => every_column(reader, Form::Number(2.0)),
             Err(error) => is_seen(&Refusal::of(error).to_string()),
@@ -102,7 +102,7 @@ pub fn begun(input: &[u8]) {
     };
     for template in std::iter::once(None).chain(init::templates::TEMPLATES.iter().map(Some)) {
         let drafted = init::draft(&look, template).and_then(|(_, draft)| {
-            let names = Names { chain: "f.chain", data: "f.csv", command: "f", site: None };
+            let names = Names { chain: "f.chain", data: "f.csv", command: "f", site: None, trajectory: None };
             let study = init::study(&draft, &look, names);
             init::hold(&draft, &study, &mut |_: &str| Ok(input.to_vec().into()))
         });

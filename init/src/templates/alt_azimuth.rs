@@ -34,6 +34,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         turned: None,
         estimate: Vec::new(),
         start: frame.starts(["azimuth_index", "elevation_index"]),
+        tolerance: &[],
         inputs: beside.names,
         is_in_order: false,
         unfollowed,

@@ -58,6 +58,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         turned: None,
         estimate: vec!["*", "base_*", "reflector_*"],
         start: Vec::new(),
+        tolerance: &[],
         inputs: beside.names,
         is_in_order: false,
         unfollowed: None,

@@ -110,6 +110,7 @@ chain BallBar {{
         turned: None,
         estimate: Vec::new(),
         start: Vec::new(),
+        tolerance: &[],
         inputs: beside.names,
         is_in_order,
         unfollowed: None,

@@ -44,6 +44,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         turned: None,
         estimate: Vec::new(),
         start: frame.starts(["index", ""]),
+        tolerance: &[],
         inputs: beside.names,
         is_in_order: false,
         unfollowed,

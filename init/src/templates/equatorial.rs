@@ -57,6 +57,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         turned: None,
         estimate: Vec::new(),
         start,
+        tolerance: &[],
         inputs: beside.names,
         is_in_order: false,
         unfollowed,

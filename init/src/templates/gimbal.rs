@@ -36,6 +36,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         turned: None,
         estimate: Vec::new(),
         start: frame.starts(["pan_index", "tilt_index"]),
+        tolerance: &[],
         inputs: beside.names,
         is_in_order: false,
         unfollowed,

@@ -50,6 +50,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         turned: None,
         estimate: vec!["*", "place_*"],
         start,
+        tolerance: &[],
         inputs: beside.names,
         is_in_order: false,
         unfollowed: None,

@@ -13,6 +13,7 @@ mod r_test;
 mod scanner;
 mod total_station;
 mod turntable;
+mod vehicle;
 
 use crate::look::{Look, Read};
 use crate::words::Part;
@@ -40,6 +41,7 @@ pub const TEMPLATES: &[Template] = &[
     total_station::TEMPLATE,
     gimbal::TEMPLATE,
     turntable::TEMPLATE,
+    vehicle::TEMPLATE,
     arm::TEMPLATE,
     encoder::TEMPLATE,
     machine::TEMPLATE,

@@ -75,6 +75,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         turned: None,
         estimate: Vec::new(),
         start: Vec::new(),
+        tolerance: &[],
         inputs: beside.names,
         is_in_order: false,
         unfollowed: None,

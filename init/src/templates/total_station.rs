@@ -68,6 +68,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         turned: None,
         estimate,
         start: Vec::new(),
+        tolerance: &[],
         inputs: beside.names,
         is_in_order: false,
         unfollowed: None,

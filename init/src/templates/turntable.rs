@@ -45,6 +45,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         turned: None,
         estimate: Vec::new(),
         start: frame.starts(["index", "rise"]),
+        tolerance: &[],
         inputs: beside.names,
         is_in_order: false,
         unfollowed,

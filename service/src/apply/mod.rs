@@ -16,6 +16,7 @@ pub use found::{Counted, Outside, region};
 pub use layout::{Layout, Place, not_finite, not_finite_warnings, numbers, write_separated};
 pub use pose::{PoseForm, nominal_pose};
 pub use seen::{As, Seen};
+pub(crate) use solve::with_axes;
 pub use solve::{REACHED, Search, Solved, Solver};
 pub(crate) use step::distance;
 pub use uncertain::Uncertain;

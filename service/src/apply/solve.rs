@@ -437,7 +437,7 @@ impl Solved {
 }
 
 /// A chain that shows the axes of the body of an observable, then that observable's point; and these, the point first.
-pub(super) fn with_axes(chain: &Chain, point: ObservableId) -> (Chain, Vec<ObservableId>) {
+pub(crate) fn with_axes(chain: &Chain, point: ObservableId) -> (Chain, Vec<ObservableId>) {
     let mut posed = axes_of(chain, point);
     for axis in &mut posed.observables {
         axis.kind = ObservableKind::Direction;

@@ -14,8 +14,9 @@ use crate::refusal::Refusal;
 use crate::source::Source;
 
 pub use forms::{FORMS, Form};
+pub(crate) use said::size;
 pub use subject::Difference;
-use subject::Subject;
+pub(crate) use subject::Subject;
 
 /// An instrument in some form.
 pub struct Exported {

@@ -123,7 +123,7 @@ impl Subject {
     }
 
     /// Errors that a form cannot carry, each with what it does alone; those that do nothing are none.
-    pub fn lost(&self, errors: &[SymbolId]) -> Result<Vec<Lost>, Refusal> {
+    pub(super) fn lost(&self, errors: &[SymbolId]) -> Result<Vec<Lost>, Refusal> {
         let mut lost = Vec::new();
         for error in errors {
             let mut values = self.without_errors();

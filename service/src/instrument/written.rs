@@ -13,7 +13,7 @@ use super::file::VERSION;
 use crate::errors_file;
 
 /// Keys of a study that say what the columns of its data mean.
-const OF_COLUMNS: [&str; 11] = [
+const OF_COLUMNS: [&str; 12] = [
     "chain",
     "observable",
     "data",
@@ -22,6 +22,7 @@ const OF_COLUMNS: [&str; 11] = [
     "comment",
     "memory",
     "site",
+    "trajectory",
     "columns",
     "observed",
     "also",

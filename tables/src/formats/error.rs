@@ -333,6 +333,16 @@ pub enum DataError {
         /// Why it cannot be, and what was expected.
         why: String,
     },
+    /// A record that the format does not allow.
+    #[error("{file}: record {record}: {why}")]
+    BadRecord {
+        /// Name of the file.
+        file: String,
+        /// Number of the record, from 1.
+        record: u64,
+        /// What is wrong and what to do.
+        why: String,
+    },
     /// A line that the format does not allow.
     #[error("{file}: line {line}: {why}")]
     BadLine {

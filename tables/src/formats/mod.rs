@@ -9,6 +9,7 @@
 //! | GSI of Leica | `gsi` | its words |
 //! | models of MountWizzard4 | `mountwizard` | JSON with its keys |
 //! | point files of AutoSlew, which plugins of NINA write | `pox` | a count, then `"Number 1"` |
+//! | trajectories as SBET | [`sbet`] | records of plausible numbers, or the ending `.sbet` |
 //! | columns in memory | [`memory`] | a program hands them over |
 //! | Parquet, with the feature of that name | `parquet` | the ending `.parquet` |
 //!
@@ -34,6 +35,7 @@ mod plate_solves;
 mod pox;
 mod quote;
 mod records;
+pub mod sbet;
 mod seen;
 mod separator;
 mod sexagesimal;
@@ -265,7 +267,7 @@ pub fn open<'r>(
     }
 }
 
-/// Opens a text. Not generic, so that what reads it is compiled with this crate and optimised as it is.
+/// Opens records or a text. Not generic, so that what reads it is compiled with this crate and optimised as it is.
 fn text<'r>(
     mut reader: Box<dyn Read + Send + 'r>,
     source: &str,
@@ -277,6 +279,9 @@ fn text<'r>(
         .take(seen::PEEK)
         .read_to_end(&mut head)
         .map_err(|error| DataError::Unreadable { file: source.to_string(), why: error.to_string() })?;
+    if sbet::is_named(source) || sbet::looks(&head) {
+        return Ok(Box::new(sbet::Reader::new(Box::new(io::Cursor::new(head).chain(reader)), source)));
+    }
     let form = seen::form(&head, source)?;
     let all = io::Cursor::new(head).chain(reader);
     match form {

@@ -47,6 +47,11 @@ impl Amount {
     /// # Errors
     /// No number, a number that is not finite, or an unknown unit.
     pub fn parse(text: &str) -> Result<Self, AmountError> {
+        Self::read(text, None)
+    }
+
+    /// The same of what is known to be measured: `s` is a second of time, or of arc.
+    fn read(text: &str, measures: Option<Measures>) -> Result<Self, AmountError> {
         let trimmed = text.trim();
         let end = number_length(trimmed);
         let number: f64 = trimmed
@@ -58,7 +63,7 @@ impl Amount {
         }
         let unit = match trimmed.get(end..).map_or("", str::trim) {
             "" => None,
-            name => Some(Unit::read(name, None)?),
+            name => Some(Unit::read(name, measures)?),
         };
         Ok(Self { number, unit })
     }
@@ -78,6 +83,14 @@ impl Amount {
 /// No number, an unknown unit, or a unit of something else.
 pub fn parse(text: &str, quantity: Quantity) -> Result<f64, AmountError> {
     Ok(Amount::parse(text)?.to_si(quantity)?)
+}
+
+/// Reads a time into seconds: `0.1 s`, `2 min`, or a bare number.
+///
+/// # Errors
+/// As [`parse`].
+pub fn parse_time(text: &str) -> Result<f64, AmountError> {
+    Ok(Amount::read(text, Some(Measures::Time))?.to_si(Measures::Time)?)
 }
 
 /// How such a quantity is written, for messages.

@@ -15,6 +15,9 @@ use super::prior::{Implausible, Priors, indexed};
 use super::score::{Score, jacobian, score, trimmed, written};
 use super::{explains, frame, size, states, strayed};
 
+/// Shares of the residual that differ by less are the same but for rounding.
+const ROUNDED: f64 = 1e-9;
+
 /// A reading of the data, and what it comes to.
 #[derive(Clone)]
 pub(super) struct Tried {
@@ -151,9 +154,12 @@ impl<'a> Trial<'a> {
     /// Readings of what observes unknown objects, the best first. Where everything starts tells most of them apart, in no time; few are
     /// fitted.
     fn nearest(&self, all: Vec<Hypothesis>) -> Vec<Tried> {
+        let own = at_start(self.plan, &self.own, None);
+        // All lengths in another unit, where nothing says how large anything is, are the same data to the fit.
+        let is_same = |(_, left): (bool, f64)| own.is_some_and(|(_, own)| (left - own).abs() <= ROUNDED * own);
         let of = |hypothesis: Hypothesis| {
             let observations = self.read(&hypothesis)?;
-            let near = at_start(self.plan, &observations, &hypothesis)?;
+            let near = at_start(self.plan, &observations, Some(&hypothesis)).filter(|near| !is_same(*near))?;
             Some((near, hypothesis, observations))
         };
         let mut near: Vec<_> = parallel::each_of(all, of).into_iter().flatten().collect();
@@ -330,7 +336,11 @@ fn read(plan: &Plan, sample: &Sample, hypothesis: Option<&Hypothesis>) -> Option
 }
 
 /// Whether stations start nowhere near where they are written, and what is left there, over how large things are.
-fn at_start(plan: &Plan, observations: &Observations, hypothesis: &Hypothesis) -> Option<(bool, f64)> {
+fn at_start(
+    plan: &Plan,
+    observations: &Observations,
+    hypothesis: Option<&Hypothesis>,
+) -> Option<(bool, f64)> {
     let unknowns = observations.unknowns.as_ref()?;
     let mut values = plan.fit.start.clone();
     values.resize(plan.chain.symbols.len() + unknowns.numbers(), 0.0);
@@ -338,7 +348,7 @@ fn at_start(plan: &Plan, observations: &Observations, hypothesis: &Hypothesis) -
     let raw = residuals(&model, observations, &values).ok()?;
     let norms: Vec<f64> = Layout::of(observations).norms(&raw).collect();
     let left = trimmed(&norms) / size::of_objects_m(&plan.chain, observations, &values)?;
-    let is_strayed = strayed(&written(plan, Some(hypothesis)), unknowns, &values).is_some();
+    let is_strayed = strayed(&written(plan, hypothesis), unknowns, &values).is_some();
     left.is_finite().then_some((is_strayed, left))
 }
 

@@ -90,6 +90,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
         tolerance: &[("lever_*", "2 m"), ("boresight_*", "2 deg")],
         inputs: Vec::new(),
         is_in_order: false,
+        unfollowed: None,
         remarks,
     })
 }

@@ -227,7 +227,12 @@ impl PrintedVector {
             let message = format!("{count} components, where {wanted}");
             return Err(vec![Mistake::new(at_end(), message).with_help(help)]);
         }
-        if has_fourth && values.pop().is_some_and(|fourth| !fourth.is_zero()) {
+        // A product with homogeneous matrices ends with the 1 of a point, whatever its other entries are.
+        let is_point = |entry: &Expr<Range<usize>>| {
+            texts.len() == 1 && matches!(&entry.node, Node::Number(number) if *number == Rational::ONE)
+        };
+        if has_fourth && values.pop().is_some_and(|fourth| !fourth.is_zero()) && !is_point(&expressions[3].1)
+        {
             let (text_index, fourth) = &expressions[3];
             let place = TextPlace { text_index: *text_index, bytes: fourth.place.clone() };
             return Err(vec![Mistake::new(place, "the fourth component of an error is always 0")]);

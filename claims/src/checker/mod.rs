@@ -68,6 +68,7 @@ pub use turn::PrintedTurn;
 pub use values::{Exactly, Given, ValueVerdict, Values, exact_leeway};
 pub use verdict::{Counted, Difference, FormVerdict, Means, Measured, Verdict};
 pub use written::TextPlace;
+pub(crate) use written::prints_letters;
 
 /// Checks claims about one chain; what it derives for one claim it keeps for the next.
 #[derive(Debug)]

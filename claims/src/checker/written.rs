@@ -80,11 +80,11 @@ pub(super) fn component(
     let (name_length, amount) = bare(text);
     let moved = |place: &Range<usize>| place.start + name_length..place.end + name_length;
     let plain = syntax::parse_amount(amount);
-    // `-x_3` and `R x_2` are LaTeX too, where these are printed symbols.
-    let is_plain = plain.is_ok() && words(amount).all(|word| symbols.declares(word) || !symbols.prints(word));
+    // `-x_3`, `R x_2` and `c_1^2` are LaTeX too, where each letter is a symbol.
+    let is_known = |word: &str| symbols.declares(word) || is_of_language(word);
+    let is_plain = plain.is_ok() && words(amount).all(is_known);
     if !is_plain
-        && words(amount).next().is_some()
-        && words(amount).all(|word| symbols.prints(word))
+        && prints_letters(amount, symbols)
         && let Ok(read) = as_latex()
     {
         return Ok(one(read));
@@ -131,6 +131,21 @@ fn is_name(text: &str) -> bool {
 fn words(text: &str) -> impl Iterator<Item = &str> {
     let words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
     words.filter(|word| word.starts_with(|c: char| c.is_ascii_alphabetic()))
+}
+
+/// Whether each word of a text is a printed symbol, or a letter with one index: what LaTeX would not take for a product of letters.
+pub(crate) fn prints_letters(text: &str, symbols: &PrintedSymbols) -> bool {
+    let is_letter = |word: &str| {
+        let (letter, index) = word.split_once('_').unwrap_or((word, "0"));
+        letter.len() == 1 && index.len() == 1
+    };
+    words(text).next().is_some()
+        && words(text).all(|word| is_letter(word) || is_of_language(word) || symbols.prints(word))
+}
+
+/// Words that the language of amounts has.
+fn is_of_language(word: &str) -> bool {
+    syntax::FUNCTIONS.iter().any(|(name, _)| *name == word) || [syntax::RAMP, "pi"].contains(&word)
 }
 
 fn is_latex(text: &str) -> bool {

@@ -84,6 +84,9 @@ pub struct NamedClaim {
     pub claim: Claim,
     /// The same in another convention that the print leaves open, if it leaves one open.
     pub otherwise: Option<Claim>,
+    /// What the print does not define, where it was read as it usually is: a formula that holds so says what it means, any other
+    /// is not judged.
+    pub doubt: Option<Mistake<Range<usize>>>,
     /// The printed texts of a closed form, as the file has them; empty for other claims.
     pub texts: Vec<String>,
     /// Whether all of them are in the plain syntax of amounts.
@@ -128,12 +131,14 @@ impl Claims {
         let (mut checked, mut undecided) = (Vec::with_capacity(self.claims.len()), Vec::new());
         for claim in &self.claims {
             match claim.verdict(&mut checker) {
-                Ok(verdict) => checked.push(Checked { claim, verdict }),
-                Err(error) => undecided.push(Unread {
-                    name: claim.name.clone(),
-                    place: claim.place.clone(),
-                    mistakes: vec![Mistake::new(claim.place.clone(), error.to_string())],
-                }),
+                Ok(verdict) => match claim.doubt.clone().filter(|_| !verdict.holds()) {
+                    Some(doubt) => undecided.push(claim.without_verdict(doubt)),
+                    None => checked.push(Checked { claim, verdict }),
+                },
+                Err(error) => {
+                    let mistake = Mistake::new(claim.place.clone(), error.to_string());
+                    undecided.push(claim.without_verdict(mistake));
+                }
             }
         }
         (checked, undecided)
@@ -141,6 +146,10 @@ impl Claims {
 }
 
 impl NamedClaim {
+    fn without_verdict(&self, why: Mistake<Range<usize>>) -> Unread {
+        Unread { name: self.name.clone(), place: self.place.clone(), mistakes: vec![why] }
+    }
+
     /// What is said of the claim.
     ///
     /// # Errors

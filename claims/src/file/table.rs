@@ -70,6 +70,20 @@ pub struct ClaimTable {
     pub separable: Option<Spanned<Texts>>,
 }
 
+impl ClaimTable {
+    /// The formulas that are printed.
+    #[must_use]
+    pub fn formulas(&self) -> Vec<&str> {
+        let several = [&self.components, &self.correction, &self.shows, &self.image, &self.equal];
+        let single = [&self.total, &self.frame, &self.jacobian];
+        let several = several.into_iter().flatten().flat_map(|texts| match texts.get_ref() {
+            Texts::One(text) => vec![text.as_str()],
+            Texts::Many(many) => many.iter().map(|text| text.get_ref().as_str()).collect(),
+        });
+        several.chain(single.into_iter().flatten().map(|text| text.get_ref().as_str())).collect()
+    }
+}
+
 /// What a printed symbol stands for.
 #[derive(Debug)]
 pub enum Meant {

@@ -12,6 +12,30 @@ use super::token::{Kind, Token};
 /// Every symbol of a formula in one normal form, in the order in which they stand; Δ, δ and d belong to the letter behind them.
 #[must_use]
 pub fn symbols_in(text: &str) -> Vec<String> {
+    symbols_but(text, |_, _| false)
+}
+
+/// The same without what nobody defines: rotations about an axis, `R_z(\psi)`, bold unit vectors, and identities among matrices.
+#[must_use]
+pub fn variables_in(text: &str) -> Vec<String> {
+    let tokens = left::tokens(text).unwrap_or_default();
+    let has_matrices = tokens.windows(2).any(|pair| match &pair[0].kind {
+        Kind::Begin(name) => layout::MATRICES.contains(&name.as_str()),
+        Kind::Mark('_') => pair[1].kind == Kind::Mark('×'),
+        _ => false,
+    });
+    symbols_but(text, |glyph, next| {
+        let is_axis = matches!(glyph.lower.as_str(), "x" | "y" | "z");
+        match glyph.base.as_str() {
+            "R" | "Rot" => is_axis && next.is_some_and(|token| token.kind == Kind::Mark('(')),
+            "e" => is_axis && glyph.bold,
+            "I" => glyph.bold || (has_matrices && glyph.upper.is_empty()),
+            _ => false,
+        }
+    })
+}
+
+fn symbols_but(text: &str, is_left_out: impl Fn(&Glyph, Option<&Token>) -> bool) -> Vec<String> {
     let Ok(tokens) = left::tokens(text) else { return Vec::new() };
     let mut found: Vec<String> = Vec::new();
     let mut before: Vec<Glyph> = Vec::new();
@@ -26,7 +50,7 @@ pub fn symbols_in(text: &str) -> Vec<String> {
                     before.push(glyph);
                     continue;
                 }
-                if bare && glyph.base == "\\pi" {
+                if (bare && glyph.base == "\\pi") || is_left_out(&glyph, tokens.get(at)) {
                     continue;
                 }
                 let glyphs = [std::mem::take(&mut before), vec![glyph]].concat();

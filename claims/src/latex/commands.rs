@@ -93,6 +93,9 @@ pub(super) fn other_word(word: &str) -> Option<&'static str> {
 /// The function of three arguments, `\operatorname{ramp}(x, from, to)`.
 pub(super) const RAMP: &str = "ramp";
 
+/// The determinant of a matrix.
+pub(super) const DETERMINANT: &str = "det";
+
 /// Inverse functions as they are printed, the two-armed one by its first letters.
 const INVERSES: [&str; 11] =
     ["arcsin", "arccos", "arctan", "arccot", "arctg", "arcctg", "asin", "acos", "atan", "acot", "atg"];
@@ -119,7 +122,7 @@ pub(super) fn refusal(command: &str) -> Option<(&'static str, &'static str)> {
         inverse if is_inverse(inverse) => {
             ("an inverse function is no sum of products of sines and cosines", INVERSE_HELP)
         }
-        "sinh" | "cosh" | "tanh" | "exp" | "ln" | "log" | "lg" | "arg" | "det" | "max" | "min" => (
+        "sinh" | "cosh" | "tanh" | "exp" | "ln" | "log" | "lg" | "arg" | "max" | "min" => (
             "this function is not known to closed forms",
             "sines, cosines, tangents and their reciprocals are",
         ),

@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use super::Unreadable;
-use super::commands::{FRACTIONS, FUNCTIONS, RAMP, refusal};
+use super::commands::{DETERMINANT, FRACTIONS, FUNCTIONS, RAMP, refusal};
 use super::token::{Kind, Token};
 use super::typed::TYPED;
 use model_core::mistake::Mistake;
@@ -55,6 +55,7 @@ fn is_symbol(command: &str) -> bool {
     !FUNCTIONS.contains(&command)
         && !FRACTIONS.contains(&command)
         && !OPERATORS.contains(&command)
+        && command != DETERMINANT
         && refusal(command).is_none()
 }
 

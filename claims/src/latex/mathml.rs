@@ -1,10 +1,14 @@
 //! Formulas as MathML, which a browser sets in type without help from outside. What is not known to this writer makes no
 //! MathML at all, so that a formula is never shown as another one.
 
+mod brackets;
+mod elements;
+
 use super::commands::FUNCTIONS;
 use super::left;
 use super::signs;
 use super::token::{Kind, Token};
+use elements::{operator, table};
 use model_core::escape::markup;
 
 /// Parts within parts that are written, and tokens of one formula.
@@ -26,18 +30,6 @@ fn is_function(kind: &Kind) -> bool {
 
 /// Operators with their limits above and below.
 const LARGE: [(&str, &str); 4] = [("sum", "∑"), ("prod", "∏"), ("int", "∫"), ("oint", "∮")];
-
-/// Environments that have brackets of their own.
-const FENCES: [(&str, &str, &str); 8] = [
-    ("pmatrix", "(", ")"),
-    ("bmatrix", "[", "]"),
-    ("Bmatrix", "{", "}"),
-    ("vmatrix", "|", "|"),
-    ("cases", "{", ""),
-    ("dcases", "{", ""),
-    ("rcases", "", "}"),
-    ("drcases", "", "}"),
-];
 
 /// A formula in LaTeX as an element of MathML; `None` where something in it is not known.
 #[must_use]
@@ -174,9 +166,16 @@ impl<'a> Writer<'a> {
         if self.is_at_mark('{') { self.group() } else { self.part() }
     }
 
+    /// What stands in braces; `{a \over b}` is a fraction.
     fn group(&mut self) -> Option<String> {
+        let over = Kind::Command("over".to_owned());
         self.at += 1;
-        let inside = self.row(&|kind| *kind == Kind::Mark('}'))?;
+        let mut inside = self.row(&|kind| *kind == Kind::Mark('}') || *kind == over)?;
+        if self.peek()?.kind == over {
+            self.at += 1;
+            let below = self.row(&|kind| *kind == Kind::Mark('}'))?;
+            inside = format!("<mfrac>{inside}{below}</mfrac>");
+        }
         self.is_at_mark('}').then(|| {
             self.at += 1;
             inside
@@ -285,51 +284,6 @@ impl<'a> Writer<'a> {
         })
     }
 
-    /// What stands between brackets, which are as high as it is; a bracket without its partner is a sign.
-    fn fenced(&mut self) -> Option<String> {
-        let sign = |kind: &Kind| match kind {
-            Kind::Mark(mark) => mark.to_string(),
-            Kind::OpenBrace => "{".to_owned(),
-            _ => "}".to_owned(),
-        };
-        let open = sign(&self.peek()?.kind);
-        let has_partner = self.has_partner();
-        self.at += 1;
-        if !has_partner {
-            return Some(operator(&open, false));
-        }
-        let inside = self.row(&closes)?;
-        let close = self.peek().filter(|token| closes(&token.kind))?;
-        self.at += 1;
-        let (open, close) = (operator(&open, true), operator(&sign(&close.kind), true));
-        Some(format!("<mrow>{open}{inside}{close}</mrow>"))
-    }
-
-    /// Whether the bracket here is closed within the cell or the group that it stands in.
-    fn has_partner(&self) -> bool {
-        let mut open: Vec<&Kind> = Vec::new();
-        for token in &self.tokens[self.at..] {
-            let kind = &token.kind;
-            let is_within = |kind: &&Kind| matches!(kind, Kind::Mark('{') | Kind::Begin(_));
-            match kind {
-                Kind::Mark('(' | '[' | '{') | Kind::OpenBrace | Kind::Begin(_) => open.push(kind),
-                Kind::Mark('}') | Kind::End(_) => match open.iter().rposition(is_within) {
-                    Some(at) => open.truncate(at),
-                    None => return false,
-                },
-                Kind::Row | Kind::Mark('&') if !open.iter().any(is_within) => return false,
-                kind if closes(kind) && !open.last().is_some_and(is_within) => {
-                    open.pop();
-                    if open.is_empty() {
-                        return true;
-                    }
-                }
-                _ => {}
-            }
-        }
-        false
-    }
-
     fn command(&mut self, token: &Token, command: &str) -> Option<String> {
         if is_function(&token.kind) {
             return Some(format!("<mi>{command}</mi>"));
@@ -373,56 +327,4 @@ impl<'a> Writer<'a> {
         let variant = if is_upright { " mathvariant=\"normal\"" } else { "" };
         Some(format!("<mi{variant}>{shown}</mi>"))
     }
-
-    fn environment(&mut self, name: &str) -> Option<String> {
-        let rows = self.table(&|kind| matches!(kind, Kind::End(_)))?;
-        if self.peek()?.kind != Kind::End(name.to_owned()) {
-            return None;
-        }
-        self.at += 1;
-        let fence = FENCES.iter().find(|(own, ..)| *own == name);
-        let is_aligned = fence.is_none() && !matches!(name, "matrix" | "smallmatrix" | "array");
-        let table = table(&rows, is_aligned);
-        let Some((_, open, close)) = fence else { return Some(table) };
-        let sign = |sign: &str| if sign.is_empty() { String::new() } else { operator(sign, true) };
-        Some(format!("<mrow>{}{table}{}</mrow>", sign(open), sign(close)))
-    }
-}
-
-/// Whether a bracket closes here.
-fn closes(kind: &Kind) -> bool {
-    matches!(kind, Kind::Mark(')' | ']') | Kind::CloseBrace)
-}
-
-/// An operator, a relation or a bracket; only brackets around something are as high as it is.
-fn operator(sign: &str, stretches: bool) -> String {
-    let is_bracket =
-        matches!(sign, "(" | ")" | "[" | "]" | "{" | "}" | "|" | "‖" | "∣" | "∥" | "→" | "^" | "~" | "¯");
-    let stretchy = match (is_bracket, stretches) {
-        (true, true) => " stretchy=\"true\"",
-        (true, false) => " stretchy=\"false\"",
-        _ => "",
-    };
-    format!("<mo{stretchy}>{}</mo>", markup(sign))
-}
-
-/// Rows of cells; aligned at their signs, or each in the middle of its column.
-fn table(rows: &[Vec<String>], is_aligned: bool) -> String {
-    let mut out = String::from("<mtable>");
-    for row in rows {
-        out.push_str("<mtr>");
-        for (at, cell) in row.iter().enumerate() {
-            let side = match (row.len(), at) {
-                (0 | 1, _) | (3, 1) => "",
-                _ if !is_aligned => "",
-                (3, 2) => " style=\"text-align:left\"",
-                (_, at) if at % 2 == 0 => " style=\"text-align:right\"",
-                _ => " style=\"text-align:left\"",
-            };
-            out.push_str(&format!("<mtd{side}>{cell}</mtd>"));
-        }
-        out.push_str("</mtr>");
-    }
-    out.push_str("</mtable>");
-    out
 }

@@ -45,12 +45,13 @@ use parser::{Matrix, Parser, Value};
 
 pub use collect::{
     Derivative, definition_of, derivative_of, derivatives_of, equal_sides, equalities_of, equations_beside,
-    is_derivative, lines_of, named_component, rows_of, shown_axis, symbols_in,
+    is_derivative, lines_of, named_component, rows_of, shown_axis, symbols_in, variables_in,
 };
 pub use mathml::mathml;
 pub use naming::NameOf;
 pub use parser::Notes;
 pub use printed::{PrintedSymbols, Turned};
+pub(crate) use token::closing;
 
 /// Why and where a formula cannot be read: bytes of its text.
 pub type Unreadable = Mistake<Range<usize>>;

@@ -250,10 +250,20 @@ pub(super) fn derivative(side: &[Token]) -> Option<[&[Token]; 2]> {
     }
 }
 
+/// The name of a vector with its bracket, and the number of its component: `p[` and 0.
+pub(super) fn numbered(name: &str) -> Option<(&str, usize)> {
+    let open = name.find(['[', '('])?;
+    let number = name[open + 1..].strip_suffix([']', ')'])?.parse().ok()?;
+    Some((&name[..=open], number))
+}
+
 /// The component that a name says: `x`, `\Delta x`, `e_y`. The last letter of a longer name, `\Delta Az`, says none.
 pub(super) fn named_axis(name: &[Token]) -> Option<usize> {
-    // As programs name it: `dx`, `delta_y`.
+    // As programs name it: `dx`, `delta_y`, `p[0]`.
     if let [Token { kind: Kind::Name(name), .. }] = name {
+        if let Some((vector, number)) = numbered(name) {
+            return Some(number).filter(|_| vector.ends_with('['));
+        }
         let letter = name.rsplit('_').next().unwrap_or(name);
         let letter = if letter.len() == 2 { letter.strip_prefix('d')? } else { letter };
         return ["x", "y", "z"].iter().position(|axis| *axis == letter);

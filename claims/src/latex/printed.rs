@@ -25,6 +25,8 @@ pub struct PrintedSymbols {
     pub(super) turned: Turned,
     /// Whether `c_1` and `s_1` are a cosine and a sine.
     pub(super) abbreviates: bool,
+    /// Whether symbols that nobody defines are read as they usually are.
+    pub(super) guesses: bool,
     /// Whether bold `i`, `j` and `k` are unit vectors.
     pub(super) has_unit_letters: bool,
 }

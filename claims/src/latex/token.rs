@@ -13,6 +13,8 @@ use super::commands::{FUNCTIONS, is_inverse};
 use super::{Unreadable, typed};
 use model_core::mistake::Mistake;
 
+pub(crate) use control::closing;
+
 /// One token and where it stands.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Token {

@@ -48,9 +48,15 @@ impl Draft {
 pub fn draft(source: &str, kind: Kind, chain: &Chain, file: &str, chain_file: &str) -> Draft {
     let chain = extended(chain);
     let macros = Macros::of_source(source);
+    let found: Vec<Equation> = equations(source, kind)
+        .into_iter()
+        .map(|equation| Equation { text: macros.expanded(&equation.text), ..equation })
+        .collect();
+    // What one equation abbreviates, the others do, too.
+    let texts: Vec<&str> = found.iter().map(|equation| equation.text.as_str()).collect();
     let mut drawn = Drawn {
         chain: &chain,
-        symbols: PrintedSymbols::of_chain(&chain),
+        symbols: PrintedSymbols::of_chain(&chain).reading(&texts).into_owned(),
         table: String::new(),
         claims: String::new(),
         count: 0,
@@ -66,10 +72,6 @@ pub fn draft(source: &str, kind: Kind, chain: &Chain, file: &str, chain_file: &s
             drawn.letter(&macros.expanded(&symbol), &name, "stated");
         }
     }
-    let found: Vec<Equation> = equations(source, kind)
-        .into_iter()
-        .map(|equation| Equation { text: macros.expanded(&equation.text), ..equation })
-        .collect();
     // Letters are named before and behind the equations that use them.
     for equation in found.iter().filter(|equation| !equation.is_display && !equation.text.contains('=')) {
         drawn.said(source, equation);

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use crate::latex::closing;
+
 /// Commands that a source defines, with the number of their arguments.
 #[derive(Debug, Default)]
 pub(super) struct Macros {
@@ -145,21 +147,6 @@ fn argument(text: &str) -> Option<(String, usize)> {
     if first != '{' {
         return Some((first.to_string(), skipped + first.len_utf8()));
     }
-    let mut depth = 0usize;
-    let mut escaped = false;
-    for (at, c) in rest.char_indices() {
-        match c {
-            _ if escaped => escaped = false,
-            '\\' => escaped = true,
-            '{' => depth += 1,
-            '}' => {
-                depth -= 1;
-                if depth == 0 {
-                    return Some((rest[1..at].to_owned(), skipped + at + 1));
-                }
-            }
-            _ => {}
-        }
-    }
-    None
+    let close = closing(rest, 0)?;
+    Some((rest[1..close].to_owned(), skipped + close + 1))
 }

@@ -5,7 +5,7 @@ use claims::paper::{Kind, draft};
 use model_core::Chain;
 use proptest::prelude::*;
 
-const PIECES: [&str; 81] = [
+const PIECES: [&str; 87] = [
     r"\begin{bmatrix}",
     r"\end{bmatrix}",
     "&",
@@ -87,6 +87,12 @@ const PIECES: [&str; 81] = [
     r"\ ",
     "<",
     "\u{202e}",
+    r"\over ",
+    r"\det ",
+    r"\boxed",
+    "p[0] = ",
+    "c_{2+3}",
+    r"\begin{vmatrix}",
 ];
 
 fn chain() -> Chain {

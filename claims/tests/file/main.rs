@@ -6,6 +6,7 @@ mod kinds;
 mod mathml;
 mod names;
 mod notation;
+mod referee;
 mod support;
 mod unread;
 mod unseen;

@@ -1,6 +1,6 @@
 //! Notations that papers use for one true formula, and the same with a slip in it.
 
-use super::support::{verdict, verdicts};
+use super::support::{help, verdict, verdicts};
 
 const SCANNER: &str = "chain B {
  input rho: length;
@@ -116,6 +116,28 @@ fn how_a_body_is_turned_is_read_as_matrix_or_quaternion() {
         assert_eq!(of_scanner("o", text), "holds", "{text}");
     }
     assert_eq!(of_scanner("o", r"\begin{bmatrix}1\\ \vec\omega\end{bmatrix}"), "differs");
+}
+
+/// A matrix of blocks that a paper defines elsewhere: the refusal gives the line of each, and with these lines it is judged.
+#[test]
+fn blocks_that_are_not_defined_are_asked_for() {
+    let blocks = r"\begin{bmatrix}\mathbf{A}&\mathbf{t}\\ \mathbf{0}^T&1\end{bmatrix}\begin{bmatrix}\mathbf{r}\\1\end{bmatrix}";
+    let file = |symbols: &str| {
+        let keys = "observable = \"p\"\nkeep = ['w*', 'da*']";
+        format!(
+            "rotations = \"vectors\"{SYMBOLS}{symbols}\n[[claim]]\nname = \"a\"\n{keys}\ncomponents = '{blocks}'\n"
+        )
+    };
+    let line = "name it under [symbols]: ";
+    let matrix = r#"'\mathbf{A}' = "[[…, …, …], […, …, …], […, …, …]]""#;
+    assert_eq!(help(SCANNER, &file("")), format!("{line}{matrix}"));
+    let first = r"'\mathbf{A}' = 'R_z(\psi) [\vec\omega]_\times'";
+    assert_eq!(help(SCANNER, &file(first)), format!(r#"{line}'\mathbf{{t}}' = "[…, …, …]""#));
+    let [right, wrong] = [r"R_z(\psi) \vec{a}", r"\vec{a}"].map(|shift| {
+        let symbols = format!("{first}\n'\\mathbf{{t}}' = '{shift}'");
+        verdict(SCANNER, &file(&symbols))
+    });
+    assert_eq!([right, wrong], ["holds", "differs"]);
 }
 
 #[test]

@@ -38,16 +38,7 @@ impl Edge for Plain {
 
 /// What is said of each claim of a file, by its name: `holds`, `differs`, or the first mistake.
 pub fn verdicts(chain: &str, file: &str) -> Vec<(String, String)> {
-    let parsed: File = toml::from_str(file).unwrap_or_else(|error| panic!("{file}: {error}"));
-    let text = match &parsed.dh {
-        Some(table) => {
-            claims::file::declaration_of_dh(table.get_ref()).unwrap_or_else(|mistake| panic!("{mistake:?}"))
-        }
-        None if chain.is_empty() => claims::file::declaration_of_formulas(&parsed),
-        None => chain.to_owned(),
-    };
-    let chain = Chain::symbolic_from_text(&text).unwrap_or_else(|mistakes| panic!("{text}\n{mistakes}"));
-    let claims = Claims::read(file, &parsed, &chain, &Plain);
+    let claims = claims_of(chain, file);
     let (checked, undecided) = claims.check();
     let mut found: Vec<(String, String)> = checked
         .iter()
@@ -58,6 +49,28 @@ pub fn verdicts(chain: &str, file: &str) -> Vec<(String, String)> {
     }
     found.extend(claims.mistakes.iter().map(|mistake| ("file".to_owned(), mistake.message.clone())));
     found
+}
+
+/// What a file with claims that have no verdict is asked for.
+#[allow(dead_code, reason = "mutants are asked for nothing")]
+pub fn help(chain: &str, file: &str) -> String {
+    let claims = claims_of(chain, file);
+    let (_, undecided) = claims.check();
+    let mistakes = claims.unread.iter().chain(&undecided).flat_map(|one| &one.mistakes);
+    mistakes.filter_map(|mistake| mistake.help.clone()).collect::<Vec<_>>().join("; ")
+}
+
+fn claims_of(chain: &str, file: &str) -> Claims {
+    let parsed: File = toml::from_str(file).unwrap_or_else(|error| panic!("{file}: {error}"));
+    let text = match &parsed.dh {
+        Some(table) => {
+            claims::file::declaration_of_dh(table.get_ref()).unwrap_or_else(|mistake| panic!("{mistake:?}"))
+        }
+        None if chain.is_empty() => claims::file::declaration_of_formulas(&parsed),
+        None => chain.to_owned(),
+    };
+    let chain = Chain::symbolic_from_text(&text).unwrap_or_else(|mistakes| panic!("{text}\n{mistakes}"));
+    Claims::read(file, &parsed, &chain, &Plain)
 }
 
 /// The one verdict of a file with one claim.

@@ -15,6 +15,8 @@ pub struct Found {
     pub value: f64,
     /// Values of all symbols at that place, indexed by [`SymbolId`], in SI units.
     pub values: Vec<f64>,
+    /// How often the remainder was evaluated.
+    pub evaluations: usize,
 }
 
 /// Points tried across the range of a joint or input before the climb refines the best of them.
@@ -41,8 +43,11 @@ pub fn search(
 ) -> Result<Found, DomainError> {
     has_first_order(chain, observable)?;
     let path = Path::new(chain, observable);
-    let length =
-        |values: &[f64]| path.shown_remainder(values).iter().map(|part| part * part).sum::<f64>().sqrt();
+    let evaluations = std::cell::Cell::new(0);
+    let length = |values: &[f64]| {
+        evaluations.set(evaluations.get() + 1);
+        path.shown_remainder(values).iter().map(|part| part * part).sum::<f64>().sqrt()
+    };
     let nominal = chain.nominal_values();
     let mut climbed = Vec::new();
     let mut cornered = Vec::new();
@@ -66,7 +71,7 @@ pub fn search(
     let mut work = 0;
     let mut random = Random(seed);
     // Without errors nothing remains.
-    let mut best = Found { value: 0.0, values: nominal.clone() };
+    let mut best = Found { value: 0.0, values: nominal.clone(), evaluations: 0 };
     for _ in 0..starts {
         let mut values = nominal.clone();
         for &(id, [low, high]) in &climbed {
@@ -84,7 +89,7 @@ pub fn search(
         }
         let start = length(&values);
         // On a pole there is no value; the climb leads away from it.
-        let mut found = Found { value: if start.is_finite() { start } else { 0.0 }, values };
+        let mut found = Found { value: if start.is_finite() { start } else { 0.0 }, values, evaluations: 0 };
         for _ in 0..ROUNDS {
             let before = found.value;
             for &(id, range) in &climbed {
@@ -111,6 +116,7 @@ pub fn search(
             break;
         }
     }
+    best.evaluations = evaluations.get();
     Ok(best)
 }
 

@@ -9,7 +9,7 @@ use super::super::strings::place_in_string;
 use super::super::table::{CameraTable, ClaimTable, Texts};
 use super::{Place, Reader, each};
 use crate::checker::entries::{Camera, Entries, EntriesOf};
-use crate::checker::{Claim, Order, PrintedVector, lower};
+use crate::checker::{Claim, Order, PrintedVector, lower, prints_letters};
 use crate::latex::{self, NameOf, PrintedMatrix, program};
 
 impl Reader<'_> {
@@ -245,7 +245,10 @@ impl Reader<'_> {
         let read = if printed.contains(['\\', '{']) {
             latex::read_matrix(printed, &symbols)
         } else {
-            program::read_matrix(printed, &symbols)
+            let as_latex = || latex::read_matrix(printed, &symbols);
+            let of_letters = prints_letters(printed, &symbols);
+            let read = program::read_matrix(printed, &symbols);
+            read.or_else(|mistake| if of_letters { as_latex().map_err(|_| mistake) } else { Err(mistake) })
         };
         match read {
             Ok(matrix) => Some(matrix),

@@ -3,7 +3,7 @@
 use super::super::NamedClaim;
 use super::super::table::ClaimTable;
 use super::{KINDS, Reader, each};
-use crate::checker::{Claim, Equality};
+use crate::checker::{Claim, Equality, prints_letters};
 use crate::latex::{PrintedSymbols, Turned};
 
 impl Reader<'_> {
@@ -12,7 +12,7 @@ impl Reader<'_> {
         let formulas = claim.equal.as_ref()?;
         let texts: Vec<&str> = each(formulas).into_iter().map(|(text, _)| text).collect();
         let &[first, second] = texts.as_slice() else { return None };
-        let is_latex = |text: &str| text.contains(['\\', '{']);
+        let is_latex = |text: &str| text.contains(['\\', '{']) || prints_letters(text, &self.symbols);
         if KINDS.iter().filter(|kind| (kind.place)(claim).is_some()).count() > 1
             || !(is_latex(first) || is_latex(second))
         {
@@ -35,6 +35,7 @@ impl Reader<'_> {
             place: claim.name.span(),
             claim: Claim::Equality(Box::new(equality)),
             otherwise: otherwise.next().map(|(_, equality)| Claim::Equality(Box::new(equality))),
+            doubt: None,
             texts: texts.iter().map(|text| (*text).to_owned()).collect(),
             is_plain: false,
         };

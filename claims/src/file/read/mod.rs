@@ -26,6 +26,7 @@ use crate::latex::{PrintedSymbols, Turned};
 
 use kinds::{KINDS, Kind, particulars};
 
+use super::free::doubt;
 use super::table::{ClaimTable, CountTable, File, Texts};
 use super::{Claims, Edge, NamedClaim, Unread};
 
@@ -44,7 +45,9 @@ pub(super) fn claims(text: &str, file: &File, chain: &Chain, edge: &dyn Edge) ->
         hand: Hand::default(),
         mistakes: Vec::new(),
     };
-    reader.symbols = reader.turned(file);
+    // What one claim abbreviates, the others do, too.
+    let printed: Vec<&str> = file.claim.iter().flat_map(|claim| claim.get_ref().formulas()).collect();
+    reader.symbols = reader.turned(file).reading(&printed).into_owned();
     let printed = reader.printed_symbols(file);
     let mut mistakes = std::mem::take(&mut reader.mistakes);
     let mut claims = Vec::new();
@@ -53,6 +56,9 @@ pub(super) fn claims(text: &str, file: &File, chain: &Chain, edge: &dyn Edge) ->
         let found = reader.claims_of(table.get_ref());
         let own = std::mem::take(&mut reader.mistakes);
         if own.is_empty() {
+            let doubt = doubt(file, table.get_ref());
+            claims.extend(found.into_iter().map(|claim| NamedClaim { doubt: doubt.clone(), ..claim }));
+        } else if let Some(found) = reader.doubtful(table.get_ref(), &own[0]) {
             claims.extend(found);
         } else {
             let name = &table.get_ref().name;
@@ -91,6 +97,17 @@ impl Reader<'_> {
         }
     }
 
+    /// The claims of a table that is read where its symbols mean what they usually do; what is said of it otherwise is their doubt.
+    fn doubtful(&mut self, claim: &ClaimTable, doubt: &Mistake<Place>) -> Option<Vec<NamedClaim>> {
+        let guessing = self.symbols.guessing();
+        let defined = std::mem::replace(&mut self.symbols, guessing);
+        let found = self.claims_of(claim);
+        self.symbols = defined;
+        let is_read = std::mem::take(&mut self.mistakes).is_empty();
+        let doubted = |claim| NamedClaim { doubt: Some(doubt.clone()), ..claim };
+        is_read.then(|| found.into_iter().map(doubted).collect())
+    }
+
     fn claims_of_one(&mut self, claim: &ClaimTable) -> Vec<NamedClaim> {
         let entries = self.matrix(claim).or_else(|| self.equal_matrices(claim));
         entries.unwrap_or_else(|| self.claim(claim).into_iter().collect())
@@ -116,13 +133,7 @@ impl Reader<'_> {
                 self.mistake(place, message).help = Some("leave it out".to_owned());
             }
         }
-        let formulas = [&claim.components, &claim.correction, &claim.shows, &claim.image, &claim.equal];
-        let single = [&claim.total, &claim.frame, &claim.jacobian].into_iter().find_map(Option::as_ref);
-        let texts: Vec<String> = match (formulas.into_iter().find_map(Option::as_ref), single) {
-            (Some(formulas), _) => each(formulas).into_iter().map(|(text, _)| text.to_owned()).collect(),
-            (None, Some(only)) => vec![only.get_ref().clone()],
-            (None, None) => Vec::new(),
-        };
+        let texts: Vec<String> = claim.formulas().into_iter().map(str::to_owned).collect();
         let is_plain = !texts.is_empty() && texts.iter().all(|text| !text.contains(['\\', '{']));
         let read = (kind.read)(self, claim)?;
         let otherwise = if read.is_turned() { self.otherwise(kind, claim) } else { None };
@@ -131,6 +142,7 @@ impl Reader<'_> {
             place: claim.name.span(),
             claim: read,
             otherwise,
+            doubt: None,
             texts,
             is_plain,
         })

@@ -64,6 +64,7 @@ impl Reader<'_> {
             place: claim.name.span(),
             claim: read,
             otherwise,
+            doubt: None,
             texts: vec![(*text).to_owned()],
             is_plain: false,
         };

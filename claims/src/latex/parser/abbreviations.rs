@@ -4,6 +4,7 @@
 use std::borrow::Cow;
 
 use super::powers::raised;
+use super::value::{added, negated};
 use super::{Formula, Parser, Value};
 use crate::latex::Unreadable;
 use crate::latex::glyph::{self, Glyph, ReadGlyph};
@@ -14,10 +15,11 @@ use crate::latex::token::{Kind, Token};
 use model_core::expr::{Expr, Function, Node};
 use model_core::mistake::Mistake;
 use model_core::symbol::SymbolKind;
+use model_core::syntax::FUNCTIONS;
 
-/// Whether a text abbreviates both cosines and sines.
+/// Whether texts abbreviate both cosines and sines, in letters of one case.
 fn abbreviates(texts: &[&str]) -> bool {
-    let mut found = [false; 2];
+    let mut found: Vec<String> = Vec::new();
     for tokens in texts.iter().filter_map(|text| left::tokens(text).ok()) {
         for pair in tokens.windows(2) {
             let [Token { kind: Kind::Word(word), .. }, next] = pair else { continue };
@@ -25,14 +27,13 @@ fn abbreviates(texts: &[&str]) -> bool {
                 || next.kind == Kind::Mark('^')
                 || next.kind == Kind::Mark('(')
                 || glyph::starts(&next.kind);
-            match word.as_str() {
-                "c" | "C" if follows => found[0] = true,
-                "s" | "S" if follows => found[1] = true,
-                _ => {}
+            if follows {
+                found.push(word.clone());
             }
         }
     }
-    found == [true; 2]
+    let has = |letter: &str| found.iter().any(|word| word == letter);
+    (has("c") && has("s")) || (has("C") && has("S"))
 }
 
 /// Whether at least two of bold `i`, `j` and `k` stand in a text.
@@ -44,6 +45,13 @@ fn has_unit_letters(texts: &[&str]) -> bool {
 }
 
 impl PrintedSymbols {
+    /// The same table where symbols that nobody defines are read as they usually are: a lone `s_2` as a sine, `\theta_{23}` as a sum.
+    pub(crate) fn guessing(&self) -> Self {
+        let mut own = self.clone();
+        own.guesses = true;
+        own
+    }
+
     /// The same table for texts that abbreviate cosines and sines, or have unit vectors as bold letters, if these do.
     #[must_use]
     pub fn reading(&self, texts: &[&str]) -> Cow<'_, Self> {
@@ -90,16 +98,36 @@ impl Parser<'_> {
         ))))
     }
 
+    /// What is said of an unknown `s_2` or `\theta_{23}`: it is likely a sine of joint 2, or the sum of two joints.
+    pub(super) fn likely_abbreviation(&self, mistake: Unreadable) -> Unreadable {
+        let likely = || {
+            let read = glyph::read(self.tokens.get(self.at..)?).ok()??;
+            let shown = glyph::normal_text(&[Glyph { upper: String::new(), ..read.glyph.clone() }]);
+            let meant = if let Some(sum) = self.sum_of_joints(&read) {
+                plain_sum(&sum)?
+            } else {
+                let meant = function_of(&read.glyph.base)?;
+                let (function, _) = FUNCTIONS.iter().find(|(_, function)| *function == meant)?;
+                let angle = self.angle_of_index(&read.glyph.lower, &read)?.ok()?;
+                let is_joint = |name: &str| self.symbols.names.get(name) == Some(&SymbolKind::Joint);
+                let sum =
+                    plain_sum(&angle).filter(|_| angle.names().iter().all(|(name, _)| is_joint(name)))?;
+                format!("{function}({sum})")
+            };
+            Some(format!("name it under [symbols]: '{shown}' = \"{meant}\""))
+        };
+        match likely() {
+            Some(help) => mistake.with_help(help),
+            None => mistake,
+        }
+    }
+
     pub(super) fn abbreviation(&mut self, read: &ReadGlyph) -> Option<Result<Value, Unreadable>> {
-        if !self.symbols.abbreviates {
+        if !self.symbols.abbreviates && !self.symbols.guesses {
             return None;
         }
         let Glyph { base, lower, upper, left, .. } = &read.glyph;
-        let function = match base.as_str() {
-            "c" | "C" => Function::Cos,
-            "s" | "S" => Function::Sin,
-            _ => return None,
-        };
+        let function = function_of(base)?;
         let power = match After::of(upper) {
             Some(After::Power(power)) if power > 0 => Some(power),
             None if upper.is_empty() => None,
@@ -137,16 +165,12 @@ impl Parser<'_> {
     /// The angle that an index names: a symbol, a sum of symbols, or numbers of joints.
     fn angle_of_index(&self, lower: &str, read: &ReadGlyph) -> Option<Result<Formula, Unreadable>> {
         let place = read.place.clone();
-        if !lower.chars().all(|c| c.is_ascii_digit() || c == ',') {
+        if !lower.chars().all(|c| c.is_ascii_digit() || matches!(c, ',' | '+' | '-')) {
             return self.inner(lower, &place);
         }
         let joint = |number: &str| joint_numbered(self.symbols, number);
-        let parts: Vec<String> = if lower.contains(',') {
-            lower.split(',').map(str::to_owned).collect()
-        } else {
-            lower.chars().map(String::from).collect()
-        };
-        let single = parts.iter().map(|number| joint(number)).collect::<Option<Vec<Vec<String>>>>()?;
+        let parts = numbers_of_index(lower)?;
+        let single = parts.iter().map(|(_, number)| joint(number)).collect::<Option<Vec<Vec<String>>>>()?;
         let whole = joint(lower).filter(|_| parts.len() > 1).unwrap_or_default();
         let doubtful = |why: String| {
             Some(Err(Mistake::new(place.clone(), why)
@@ -156,8 +180,8 @@ impl Parser<'_> {
             return doubtful(format!("is {lower} the number of one joint, or of {} joints?", parts.len()));
         }
         let single = if whole.is_empty() { single } else { vec![whole] };
-        let mut sum: Option<Formula> = None;
-        for (found, number) in single.iter().zip(&parts) {
+        let mut joints = Vec::with_capacity(single.len());
+        for (found, (is_negative, number)) in single.into_iter().zip(&parts) {
             let [name] = found.as_slice() else {
                 return match found.len() {
                     0 => None,
@@ -165,12 +189,68 @@ impl Parser<'_> {
                 };
             };
             let joint = Expr { node: Node::Symbol(name.clone()), place: place.clone() };
-            sum = Some(match sum {
-                None => joint,
-                Some(sum) => Expr { node: Node::Add(Box::new(sum), Box::new(joint)), place: place.clone() },
-            });
+            joints.push(if *is_negative { negated(joint) } else { joint });
         }
-        sum.map(Ok)
+        joints.into_iter().reduce(added).map(Ok)
+    }
+
+    /// The sum of the joints that a symbol numbers: `\theta_{23}` beside joints `\theta_2` and `\theta_3`.
+    fn sum_of_joints(&self, read: &ReadGlyph) -> Option<Formula> {
+        let numbers = &read.glyph.lower;
+        if numbers.len() < 2 || !numbers.chars().all(|c| c.is_ascii_digit()) {
+            return None;
+        }
+        let joint = |number: char| {
+            let glyph = Glyph { lower: number.to_string(), ..read.glyph.clone() };
+            let name = self.symbols.entry(&[glyph], &[])?.name()?;
+            let is_joint = self.symbols.names.get(name) == Some(&SymbolKind::Joint);
+            is_joint.then(|| Expr { node: Node::Symbol(name.to_owned()), place: read.place.clone() })
+        };
+        numbers.chars().map(joint).collect::<Option<Vec<Formula>>>()?.into_iter().reduce(added)
+    }
+
+    /// The same as a value, where symbols that nobody defines are read as they usually are.
+    pub(super) fn usual_sum(&mut self, read: &ReadGlyph) -> Option<Result<Value, Unreadable>> {
+        let sum = self.sum_of_joints(read).filter(|_| self.symbols.guesses)?;
+        self.at += read.tokens;
+        Some(self.powered(sum).map(Value::Scalar))
+    }
+}
+
+/// The numbers in an index, each with whether it is subtracted: `23`, `2,3`, `2+3`.
+fn numbers_of_index(lower: &str) -> Option<Vec<(bool, String)>> {
+    let digits = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_digit());
+    if digits(lower) {
+        return Some(lower.chars().map(|digit| (false, digit.to_string())).collect());
+    }
+    let (mut parts, mut is_negative, mut rest) = (Vec::new(), false, lower);
+    loop {
+        let (number, behind) = rest.split_at(rest.find([',', '+', '-']).unwrap_or(rest.len()));
+        parts.push((is_negative, Some(number.to_owned()).filter(|number| digits(number))?));
+        let Some(sign) = behind.chars().next() else { return Some(parts) };
+        is_negative = sign == '-';
+        rest = &behind[1..];
+    }
+}
+
+/// What a letter abbreviates.
+fn function_of(letter: &str) -> Option<Function> {
+    match letter {
+        "c" | "C" => Some(Function::Cos),
+        "s" | "S" => Some(Function::Sin),
+        _ => None,
+    }
+}
+
+/// A sum of names in the plain syntax; nothing for any other amount.
+fn plain_sum(formula: &Formula) -> Option<String> {
+    match &formula.node {
+        Node::Symbol(name) => Some(name.clone()),
+        Node::Add(a, b) => match &b.node {
+            Node::Neg(b) => Some(format!("{} - {}", plain_sum(a)?, plain_sum(b)?)),
+            _ => Some(format!("{} + {}", plain_sum(a)?, plain_sum(b)?)),
+        },
+        _ => None,
     }
 }
 

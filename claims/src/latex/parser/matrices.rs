@@ -55,7 +55,7 @@ impl Parser<'_> {
     }
 
     /// `\hat{x}`, `\mathbf{e}_x`, `\hat{\imath}`, `\mathbf{i}` beside `\mathbf{j}`: one of the axes, where no symbol of that name is declared.
-    pub(super) fn unit_vector(&mut self) -> Option<Value> {
+    pub(super) fn unit_vector(&mut self) -> Option<Result<Value, Unreadable>> {
         let read = glyph::read(&self.tokens[self.at..]).ok()??;
         let glyph = read.glyph;
         let hatted = ["hat", "vec", "widehat"]
@@ -79,11 +79,20 @@ impl Parser<'_> {
             }
             _ => None,
         }?;
+        let declared = format!("e{}", glyph.lower);
+        if glyph.base == "e" && !glyph.bold && self.symbols.declares(&declared) {
+            let shown = &self.text[read.place.clone()];
+            let message = format!("is `{shown}` the declared `{declared}`, or a unit vector?");
+            return Some(Err(Mistake::new(read.place.clone(), message).with_help(format!(
+                "for the first write under [symbols]: '{shown}' = \"{declared}\"; for the second, `\\mathbf{{e}}_{}`",
+                glyph.lower
+            ))));
+        }
         self.at += read.tokens;
         let number = |value| Expr { node: Node::Number(value), place: read.place.clone() };
         let entries = (0..3).map(|other| number(if other == index { Rational::ONE } else { Rational::ZERO }));
         let column = Matrix::column(entries.collect(), read.place.clone());
-        Some(Value::Matrix(if transposed { column.transposed() } else { column }))
+        Some(Ok(Value::Matrix(if transposed { column.transposed() } else { column })))
     }
 }
 

@@ -18,7 +18,7 @@ mod value;
 
 use std::ops::Range;
 
-use super::commands::{FRACTIONS, RAMP};
+use super::commands::{DETERMINANT, FRACTIONS, RAMP};
 use super::token::{Kind, Token};
 use super::{PrintedSymbols, Unreadable, glyph};
 use functions::function;
@@ -306,7 +306,7 @@ impl<'a> Parser<'a> {
                 Kind::Command(name) => {
                     function(name).is_some()
                         || is_fraction(name)
-                        || matches!(name.as_str(), "sqrt" | "sum" | "exp" | RAMP)
+                        || matches!(name.as_str(), "sqrt" | "sum" | "exp" | DETERMINANT | RAMP)
                         || glyph::starts(&token.kind)
                 }
                 Kind::Name(_) => true,

@@ -24,6 +24,7 @@ impl Parser<'_> {
             .or_else(|| self.function_of_matrix(&read))
             .or_else(|| self.exponential(&read))
             .or_else(|| self.abbreviation(&read))
+            .or_else(|| self.usual_sum(&read))
     }
 
     /// `\mathbf I`, `I_3`, `I_{3\times 3}`
@@ -248,6 +249,28 @@ impl Parser<'_> {
         self.notes.truncates |= is_series;
         matrix.place.start = start;
         self.powered_value(Value::Matrix(matrix))
+    }
+
+    /// The determinant of the matrix behind its name: in brackets, or one symbol.
+    pub(super) fn determinant(&mut self, start: usize) -> Result<Value, Unreadable> {
+        let is_bare = self.peek().is_some_and(|token| glyph::starts(&token.kind));
+        let inside = self.operand()?;
+        if is_bare && self.starts_operand() {
+            let message = "does the determinant end before this factor, or behind it?";
+            return Err(Mistake::new(self.here(), message).with_help(r"write `\det(…)`"));
+        }
+        let Value::Matrix(matrix) = inside else {
+            return Err(Mistake::new(inside.place(), "only matrices have a determinant"));
+        };
+        let determinant = self.determinant_of(&matrix)?;
+        let place = start..matrix.place.end;
+        Ok(Value::Scalar(Expr { node: determinant.node, place }))
+    }
+
+    /// The determinant of a matrix; one of small turns has terms that a print drops.
+    pub(super) fn determinant_of(&mut self, matrix: &Matrix) -> Result<Formula, Unreadable> {
+        self.notes.truncates |= matrix.entries.iter().any(|entry| self.has_error(entry));
+        transforms::determinant(matrix)
     }
 
     /// Whether every term of an amount has an error in it, as far as one can see: a product with an error, or a sum of such.

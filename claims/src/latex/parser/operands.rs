@@ -3,7 +3,7 @@
 use super::functions::function;
 use super::powers::raised;
 use super::{Formula, Matrix, Parser, Value, is_fraction, transforms};
-use crate::latex::commands::RAMP;
+use crate::latex::commands::{DETERMINANT, RAMP};
 use crate::latex::lookup::After;
 use crate::latex::printed::Meaning;
 use crate::latex::token::Kind;
@@ -33,8 +33,13 @@ impl Parser<'_> {
                 let group = self.group()?;
                 self.powered_value(group)
             }
-            Kind::Begin(_) => {
+            Kind::Begin(name) => {
                 let matrix = self.matrix()?;
+                // Bars around entries are the determinant.
+                if name == "vmatrix" {
+                    let determinant = self.determinant_of(&matrix)?;
+                    return self.powered(determinant).map(Value::Scalar);
+                }
                 self.powered_value(Value::Matrix(matrix))
             }
             Kind::Command(name) => {
@@ -56,6 +61,11 @@ impl Parser<'_> {
                     let start = self.here().start;
                     self.advance();
                     return self.exponential_of_group(start);
+                }
+                if name == DETERMINANT {
+                    let start = self.here().start;
+                    self.advance();
+                    return self.determinant(start);
                 }
                 if name == RAMP {
                     return self.ramp().map(Value::Scalar);
@@ -112,8 +122,12 @@ impl Parser<'_> {
         };
         self.deeper()?;
         self.advance();
-        let first = self.formula()?;
-        let mut inside = first;
+        let mut inside = self.formula()?;
+        // `{a \over b}` divides all of its group.
+        if closer == Kind::Mark('}') && self.is_at_command("over") {
+            self.advance();
+            inside = Value::quotient(inside, self.formula()?)?;
+        }
         if self.is_at_mark(',') || self.is_at_mark(';') {
             let mut entries = vec![inside.scalar()?];
             while self.is_at_mark(',') || self.is_at_mark(';') {
@@ -182,9 +196,9 @@ impl Parser<'_> {
             }
             Err(mistake) => {
                 if let Some(vector) = self.unit_vector() {
-                    return Ok(vector);
+                    return vector;
                 }
-                return self.named().unwrap_or(Err(mistake));
+                return self.named().unwrap_or_else(|| Err(self.likely_abbreviation(mistake)));
             }
         };
         let place = found.place.clone();

@@ -105,6 +105,21 @@ pub(super) fn inverse(matrix: &Matrix) -> Result<Matrix, Unreadable> {
     Ok(Matrix::new(size, entries, matrix.place.clone()))
 }
 
+/// The determinant of a square matrix of up to four rows.
+pub(super) fn determinant(matrix: &Matrix) -> Result<Formula, Unreadable> {
+    if !matrix.is_square() || matrix.rows > 4 {
+        return Err(Mistake::new(matrix.place.clone(), format!("{} has no determinant", matrix.shape()))
+            .with_help("square matrices of up to four rows have one here"));
+    }
+    let all: Vec<usize> = (0..matrix.rows).collect();
+    let determinant = Matrix::new(1, vec![minor(matrix, &all, &all)], matrix.place.clone());
+    determinant.checked_size()?;
+    match <[Formula; 1]>::try_from(determinant.entries) {
+        Ok([only]) => Ok(Expr { node: only.node, place: determinant.place }),
+        Err(_) => unreachable!("a matrix of one entry"),
+    }
+}
+
 /// The determinant of some rows and columns, along the first row.
 fn minor(matrix: &Matrix, rows: &[usize], columns: &[usize]) -> Formula {
     let Some((first, rest)) = rows.split_first() else { return number(1, &matrix.place) };

@@ -1,5 +1,7 @@
 //! The lexer of lines of programs.
 
+mod words;
+
 use std::ops::Range;
 
 use super::super::Unreadable;
@@ -15,10 +17,6 @@ const CUES: [&str; 25] = [
 const PYTHON: [&str; 5] = ["np.", "numpy.", "math.", "**", "@"];
 /// What only C and its relatives have.
 const C: [&str; 8] = ["std::", "pow(", "M_PI", "sinf(", "cosf(", "double ", "float ", "Math."];
-/// Libraries whose functions are known by their own names.
-const LIBRARIES: [&str; 7] = ["np.", "numpy.", "math.", "Math.", "std::", "linalg.", "cmath."];
-/// Words that say of what type a value is.
-const TYPES: [&str; 9] = ["double", "float", "const", "auto", "let", "var", "return", "static", "final"];
 
 /// Whether a text can only be lines of a program, several that each give a name included.
 #[must_use]
@@ -94,7 +92,7 @@ impl Lexer<'_> {
             self.refuse_neighbour(start)?;
             return self.number(start);
         }
-        for sign in ["...", "**", ".*", "./", ".^", "//"] {
+        for sign in ["...", "**", ".*", "./", ".^", ".'", "//"] {
             if self.rest().starts_with(sign) {
                 self.at += sign.len();
                 return self.sign(sign, start);
@@ -154,13 +152,6 @@ impl Lexer<'_> {
         Ok(())
     }
 
-    /// Whether a name and its `=` follow: `double c = cos(h), s = sin(h);`.
-    fn gives_name(&self) -> bool {
-        let rest = self.rest().trim_start();
-        let behind = rest.trim_start_matches(|c: char| c.is_ascii_alphanumeric() || c == '_');
-        behind.len() < rest.len() && behind.trim_start().starts_with('=')
-    }
-
     /// Blanks between the entries of a list part them in MATLAB: `[cos(h) -sin(h) 0]`; so do ends of lines its rows.
     fn blank(&mut self, mut is_row: bool, start: usize) -> Result<(), Unreadable> {
         is_row |= self.rest().chars().take_while(|c| c.is_whitespace()).any(|c| c == '\n');
@@ -199,35 +190,12 @@ impl Lexer<'_> {
         false
     }
 
-    /// What Python writes behind an operand: `.T`, `.dot(b)`, `.flatten()`. The length is skipped where it is one.
-    fn method(&mut self, start: usize) -> bool {
-        for shape in [".flatten()", ".ravel()", ".squeeze()"] {
-            if self.rest().starts_with(shape) {
-                self.at += shape.len();
-                return true;
-            }
-        }
-        for (written, mark) in [(".transpose()", '\''), (".T", '\''), (".dot", '*')] {
-            let Some(behind) = self.rest().strip_prefix(written) else { continue };
-            let is_whole = if mark == '*' {
-                behind.starts_with('(')
-            } else {
-                !behind.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '_')
-            };
-            if is_whole {
-                self.at += written.len();
-                self.push(Kind::Mark(mark), start);
-                return true;
-            }
-        }
-        false
-    }
-
     fn sign(&mut self, sign: &str, start: usize) -> Result<(), Unreadable> {
         match sign {
             "..." => self.skip_while(|c| c.is_whitespace()),
             "**" | ".^" => return self.power(start),
             ".*" => self.push(Kind::Mark('⊙'), start),
+            ".'" => self.push(Kind::Mark('\''), start),
             "./" => self.push(Kind::Mark('/'), start),
             _ => self.skip_while(|c| c != '\n'),
         }
@@ -264,7 +232,7 @@ impl Lexer<'_> {
     fn number(&mut self, start: usize) -> Result<(), Unreadable> {
         self.skip_while(|c| c.is_ascii_digit());
         let is_point = self.peek() == Some('.')
-            && !["*", "/", "^"].iter().any(|sign| self.rest()[1..].starts_with(sign));
+            && !["*", "/", "^", "'"].iter().any(|sign| self.rest()[1..].starts_with(sign));
         if is_point {
             self.at += 1;
             self.skip_while(|c| c.is_ascii_digit());
@@ -304,38 +272,6 @@ impl Lexer<'_> {
                 let from = if c == '0' { whole.end } else { whole.start };
                 self.tokens.push(mark(kind, from..whole.end));
             }
-        }
-        Ok(())
-    }
-
-    fn word(&mut self, start: usize, is_declared: &impl Fn(&str) -> bool) -> Result<(), Unreadable> {
-        while let Some(library) = LIBRARIES.iter().find(|library| self.rest().starts_with(**library)) {
-            self.at += library.len();
-        }
-        let from = self.at;
-        self.skip_while(|c| c.is_ascii_alphanumeric() || c == '_');
-        let word = self.text[from..self.at].to_owned();
-        let begins_line = self.tokens.last().is_none_or(|token| token.kind == Kind::Row);
-        if begins_line && matches!(word.as_str(), "import" | "from" | "using") && self.peek() == Some(' ') {
-            self.skip_while(|c| c != '\n');
-            return Ok(());
-        }
-        if word.is_empty() {
-            return Err(Mistake::new(start..self.at, "a function is missing behind its library"));
-        }
-        let is_called = self.rest().trim_start().starts_with('(');
-        if TYPES.contains(&word.as_str()) && !is_called && !is_declared(&word) {
-            return Ok(());
-        }
-        self.refuse_neighbour(start)?;
-        let bare = word.strip_suffix('f').filter(|_| is_called).unwrap_or(&word);
-        match bare {
-            "sin" | "cos" | "tan" | "cot" | "sec" | "csc" | "sqrt" if is_called => {
-                self.push(Kind::Command(bare.to_owned()), start);
-            }
-            "pi" | "PI" | "M_PI" if !is_declared(&word) => self.push(Kind::Command("pi".to_owned()), start),
-            _ if is_called && !is_declared(&word) => self.push(Kind::Command(format!("call {word}")), start),
-            _ => self.push(Kind::Name(word), start),
         }
         Ok(())
     }

@@ -146,5 +146,23 @@ fn rows(text: &str, symbols: &PrintedSymbols) -> Result<Vec<Row>, Unreadable> {
     if rows.is_empty() {
         return Err(Mistake::new(0..text.len(), "a formula is missing"));
     }
+    in_order(&mut rows)?;
     Ok(rows.into_iter().map(|(_, row)| row).collect())
+}
+
+/// Puts components that lines give by number, `p[0] = …`, into the order of their numbers; none may be missing.
+fn in_order(rows: &mut [(Option<String>, Row)]) -> Result<(), Unreadable> {
+    let numbers: Option<Vec<(&str, usize)>> =
+        rows.iter().map(|(own, _)| naming::numbered(own.as_deref()?)).collect();
+    let Some(mut numbers) = numbers.filter(|numbers| numbers.len() > 1) else { return Ok(()) };
+    numbers.sort_unstable();
+    // MATLAB counts from one.
+    let first = if numbers[0].0.ends_with('(') { numbers[0].1.min(1) } else { 0 };
+    if numbers.iter().zip(first..).any(|((name, number), at)| *name != numbers[0].0 || *number != at) {
+        let place = rows[0].1.name.first().map_or(0..0, |token| token.place.clone());
+        return Err(Mistake::new(place, "these numbers of components do not follow one another")
+            .with_help("write one line for each component of one vector"));
+    }
+    rows.sort_by_key(|(own, _)| own.as_deref().and_then(naming::numbered).map(|(_, number)| number));
+    Ok(())
 }

@@ -61,7 +61,9 @@ impl Lexer<'_> {
     /// `\boxed{a = b}`: the braces of a group that only a frame is drawn around.
     fn framed(&mut self) {
         self.skip_while(char::is_whitespace);
-        if let Some(close) = closing(self.text, self.at).filter(|_| self.peek() == Some('{')) {
+        if let Some(close) = closing(self.text, self.at)
+            && !has_over(&self.text[self.at..close])
+        {
             self.closers.push(close);
             self.at += 1;
         }
@@ -72,7 +74,7 @@ impl Lexer<'_> {
         let start = self.at;
         for part in [false, true] {
             self.skip_while(char::is_whitespace);
-            let Some(close) = closing(self.text, self.at).filter(|_| self.peek() == Some('{')) else { break };
+            let Some(close) = closing(self.text, self.at) else { break };
             let inside = self.text[self.at + 1..close].trim();
             let is_relation = inside == "="
                 || inside.strip_prefix('\\').is_some_and(|command| RELATIONS.contains(&command));
@@ -169,6 +171,7 @@ impl Lexer<'_> {
         let only_letters = |text: &str| {
             text.trim_start().starts_with(|c: char| c == '\\' || c.is_alphabetic())
                 && !text.contains(['+', '-', '=', '*', '/', '&', '(', ')', '[', ']', ',', '$', '%'])
+                && !has_over(text)
         };
         match close.filter(|&close| only_letters(&self.text[inside..close])) {
             Some(close) => self.closers.push(close),
@@ -213,8 +216,8 @@ impl Lexer<'_> {
     }
 }
 
-/// Where the brace at `open` closes.
-fn closing(text: &str, open: usize) -> Option<usize> {
+/// Where the brace at `open` closes; nothing where none is there.
+pub(crate) fn closing(text: &str, open: usize) -> Option<usize> {
     let mut depth = 0usize;
     let mut escaped = false;
     for (at, c) in text[open..].char_indices() {
@@ -222,16 +225,19 @@ fn closing(text: &str, open: usize) -> Option<usize> {
             _ if escaped => escaped = false,
             '\\' => escaped = true,
             '{' => depth += 1,
-            '}' => {
-                depth -= 1;
-                if depth == 0 {
-                    return Some(open + at);
-                }
-            }
+            '}' => depth = depth.checked_sub(1)?,
             _ => {}
+        }
+        if depth == 0 {
+            return Some(open + at).filter(|_| c == '}');
         }
     }
     None
+}
+
+/// Whether a text divides what stands before `\over` by what stands behind it: then its braces hold both together.
+fn has_over(text: &str) -> bool {
+    text.match_indices("\\over").any(|(at, over)| !text[at + over.len()..].starts_with(char::is_alphabetic))
 }
 
 /// `2pt`, `-.5ex`, `1.2 em`.

@@ -1,6 +1,6 @@
 //! Words: letters that stand upright and are one symbol, `\text{cross elevation}`.
 
-use super::super::commands::{FUNCTIONS, RAMP, SWITCHES, is_inverse, other_word};
+use super::super::commands::{DETERMINANT, FUNCTIONS, RAMP, SWITCHES, is_inverse, other_word};
 use super::super::typed;
 use super::{Kind, Lexer};
 
@@ -54,7 +54,10 @@ impl Lexer<'_> {
         };
         let kind = match typed {
             Some(command) => Kind::Command(command.to_owned()),
-            None if FUNCTIONS.contains(&word.as_str()) || word == RAMP || is_inverse(&word) => {
+            None if FUNCTIONS.contains(&word.as_str())
+                || [RAMP, DETERMINANT].contains(&word.as_str())
+                || is_inverse(&word) =>
+            {
                 Kind::Command(word)
             }
             None => match other_word(&word) {

@@ -1,18 +1,20 @@
 //! How sharp bounds are: for the gallery and 200 random chains, the bound over the largest difference that a fixed search finds.
 //!
-//! `cargo run --release -p trueaxis-core --example bound_sharpness` from the root of the repository. The chains and their sizes
-//! follow from one seed; half of the joints have a range.
-#![allow(clippy::print_stdout, clippy::unwrap_used)]
+//! `cargo run --release -p trueaxis-benches --bin bound_sharpness` from the root of the repository; `--list` prints every ratio.
+//! The chains and their sizes follow from one seed; half of the joints have a range.
+#![allow(clippy::print_stdout, clippy::unwrap_used, reason = "a program of its own, run by hand")]
 
 use std::fmt::Write;
+use std::path::Path;
 
+use claims::file::{File, declaration_of_dh};
 use model_core::remainder::{Domain, bound, search};
 use model_core::{Chain, ObservableId, SymbolKind};
 
 const SEED: u64 = 20_261_127;
 const CHAINS: u64 = 200;
-/// Of the search, which comes to some 10⁵ evaluations for a chain of twenty errors and five joints.
-const STARTS: u32 = 24;
+/// Of each search, at least.
+const EVALUATIONS: usize = 100_000;
 
 /// SplitMix64.
 struct Random(u64);
@@ -72,12 +74,43 @@ fn random_chain(random: &mut Random) -> String {
     text
 }
 
+/// The largest difference that a search of as many starts finds as make the evaluations.
+fn largest(chain: &Chain, id: ObservableId, domain: &Domain) -> f64 {
+    let (mut starts, mut before) = (4, 0);
+    loop {
+        let found = search(chain, id, domain, starts, 1).unwrap();
+        // Of very many errors the search itself makes fewer.
+        let is_done = found.evaluations >= EVALUATIONS || found.evaluations <= before;
+        if is_done || found.value == 0.0 {
+            return found.value;
+        }
+        before = found.evaluations;
+        starts = (1.05 * f64::from(starts) * EVALUATIONS as f64 / before as f64).ceil() as u32;
+    }
+}
+
+/// The declaration of a claims file, which names a chain or lists a table of Denavit and Hartenberg.
+fn declaration(file: &Path) -> Option<String> {
+    let claims: File = toml::from_str(&std::fs::read_to_string(file).unwrap()).unwrap();
+    match (&claims.dh, &claims.chain) {
+        (Some(table), _) => declaration_of_dh(table.get_ref()).ok(),
+        (None, Some(chain)) => std::fs::read_to_string(file.with_file_name(chain.get_ref())).ok(),
+        (None, None) => None,
+    }
+}
+
 /// The ratio of each observable that has a bound and can differ.
 fn ratios(name: &str, chain: &Chain, domain: &Domain, all: &mut Vec<(f64, String)>) {
     for index in 0..chain.observables.len() {
         let id = ObservableId(u16::try_from(index).unwrap());
-        let Ok(bound) = bound(chain, id, domain) else { continue };
-        let found = search(chain, id, domain, STARTS, 1).unwrap().value;
+        let bound = match bound(chain, id, domain) {
+            Ok(bound) => bound,
+            Err(error) => {
+                println!("no bound: {name} {}: {error}", chain.observable(id).name);
+                continue;
+            }
+        };
+        let found = largest(chain, id, domain);
         if found > 1e-15 && bound.value >= found {
             all.push((
                 bound.value / found,
@@ -109,8 +142,13 @@ fn main() {
     let mut files: Vec<_> =
         std::fs::read_dir("examples/gallery").unwrap().map(|file| file.unwrap().path()).collect();
     files.sort();
-    for file in files.iter().filter(|file| file.extension().is_some_and(|ending| ending == "chain")) {
-        let Ok(chain) = Chain::from_text(&std::fs::read_to_string(file).unwrap()) else { continue };
+    for file in files.iter().filter(|file| file.extension().is_some_and(|ending| ending == "toml")) {
+        let text = declaration(file).unwrap();
+        let chain = Chain::symbolic_from_text(&text).unwrap();
+        if chain.symbols_of(SymbolKind::Error).next().is_none() {
+            println!("no errors: {}", file.display());
+            continue;
+        }
         let mut domain = Domain::new(&chain);
         for error in chain.symbols_of(SymbolKind::Error) {
             // A milliradian, or a millimetre.

@@ -156,10 +156,12 @@ impl<'a> Trial<'a> {
     fn nearest(&self, all: Vec<Hypothesis>) -> Vec<Tried> {
         let own = at_start(self.plan, &self.own, None);
         // All lengths in another unit, where nothing says how large anything is, are the same data to the fit.
-        let is_same = |(_, left): (bool, f64)| own.is_some_and(|(_, own)| (left - own).abs() <= ROUNDED * own);
+        let is_same =
+            |(_, left): (bool, f64)| own.is_some_and(|(_, own)| (left - own).abs() <= ROUNDED * own);
         let of = |hypothesis: Hypothesis| {
             let observations = self.read(&hypothesis)?;
-            let near = at_start(self.plan, &observations, Some(&hypothesis)).filter(|near| !is_same(*near))?;
+            let near =
+                at_start(self.plan, &observations, Some(&hypothesis)).filter(|near| !is_same(*near))?;
             Some((near, hypothesis, observations))
         };
         let mut near: Vec<_> = parallel::each_of(all, of).into_iter().flatten().collect();

@@ -8,7 +8,6 @@ use std::cell::OnceCell;
 use super::confirm::{Judged, judged};
 use super::functions::{MOST, Settled, Winner, settled};
 use super::heard::{Places, are_any, heard};
-use super::orders::has_wave;
 use super::whole_objects::are_cut_across;
 use crate::contest::Hypothesis;
 use crate::diagnose::Rms;
@@ -28,7 +27,7 @@ const GAINS: f64 = 0.95;
 const BY_THRESHOLDS: f64 = 20.0;
 
 /// What counts as no worse: figures of a few hundred rows scatter by more.
-const NO_WORSE: f64 = 1.01;
+pub(super) const NO_WORSE: f64 = 1.01;
 
 /// What a function may leave at most of the rows that it was fitted to for the time that the trial takes.
 const WORTH_TRYING: f64 = 0.98;
@@ -100,19 +99,6 @@ fn judge<'a>(settled: Settled<'a>, before: &FitResult) -> Result<Chosen<'a>, Sea
     let judged = judged(&whole, before, round)?;
     let as_good = if judged.left_out.is_empty() { as_good } else { Vec::new() };
     Ok(Chosen { as_good, ..Chosen::of(whole, judged) })
-}
-
-/// Whether a search that knew of more waves predicts better with one: in random folds, and no worse in regions that it did not see.
-pub(super) fn has_won(told: &Chosen<'_>, with_waves: &Chosen<'_>) -> bool {
-    let ratio = |of: fn(&Rms) -> Option<f64>| share(&with_waves.judged.rms, &told.judged.rms, of);
-    let kept = match told.whole.request.second {
-        None => ratio(|rms| rms.held_out_rms_kept),
-        Some(_) => None,
-    };
-    with_waves.judged.left_out.is_empty()
-        && has_wave(&with_waves.whole, &with_waves.judged.round)
-        && kept.is_none_or(|ratio| ratio < 1.0)
-        && ratio(|rms| rms.elsewhere_rms_kept).is_none_or(|ratio| ratio <= NO_WORSE)
 }
 
 /// Whether the model with functions predicts better: in random folds by a margin, and no worse in regions that its search did

@@ -277,7 +277,7 @@ fn with_waves<'a>(
         return Ok(found);
     }
     let with_waves = chosen_of(last, before, own)?;
-    Ok(if choice::has_won(&found, &with_waves) { with_waves } else { found })
+    Ok(if orders::has_won(&found, &with_waves) { with_waves } else { found })
 }
 
 /// The last round of a search, before anything is left out to judge it.

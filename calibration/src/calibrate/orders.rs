@@ -2,8 +2,10 @@
 
 use std::cell::OnceCell;
 
-use super::choice::{Chosen, NAMED};
+use super::choice::{Chosen, NAMED, NO_WORSE};
 use super::functions::{add_function, numbered};
+use crate::diagnose::Rms;
+use crate::diagnose::rms::share;
 use crate::search::SearchError;
 use crate::search::context::{Context, Found, Request};
 use crate::search::fitted::Fitted;
@@ -62,4 +64,17 @@ pub(super) fn has_wave(whole: &Context<'_>, round: &Round<'_>) -> bool {
 
 fn is_wave(whole: &Context<'_>, found: &Found) -> bool {
     whole.catalogue[found.effect].family == HIGH_HARMONIC
+}
+
+/// Whether a search that knew of more waves predicts better with one: in random folds, and no worse in regions that it did not see.
+pub(super) fn has_won(told: &Chosen<'_>, with_waves: &Chosen<'_>) -> bool {
+    let ratio = |of: fn(&Rms) -> Option<f64>| share(&with_waves.judged.rms, &told.judged.rms, of);
+    let kept = match told.whole.request.second {
+        None => ratio(|rms| rms.held_out_rms_kept),
+        Some(_) => None,
+    };
+    with_waves.judged.left_out.is_empty()
+        && has_wave(&with_waves.whole, &with_waves.judged.round)
+        && kept.is_none_or(|ratio| ratio < 1.0)
+        && ratio(|rms| rms.elsewhere_rms_kept).is_none_or(|ratio| ratio <= NO_WORSE)
 }

@@ -95,7 +95,7 @@ fn judgement(plan: &Plan, sample: &Sample) -> Option<Judgement> {
     let best = readings.first()?;
     let mut start = None;
     if best.score.total - as_read.total >= MARGIN {
-        let elsewhere = trial.as_read_elsewhere(best).filter(|other| other.total > as_read.total);
+        let elsewhere = trial.as_read_elsewhere(best, &as_read).filter(|other| other.total > as_read.total);
         if let Some(other) = elsewhere {
             let errors = &other.values[..plan.chain.symbols.len()];
             start = (other.total - as_read.total >= MARGIN).then(|| errors.to_vec());

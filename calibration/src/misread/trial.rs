@@ -4,16 +4,19 @@ use std::f64::consts::FRAC_PI_2;
 
 use fit::noise::{Layout, NoiseOptions, resolution};
 use fit::{FitOptions, Model, residuals};
+use model_core::{Quantity, SymbolId};
 use nalgebra::UnitQuaternion;
 use network::place;
 use observe::Observations;
 use study::{Change, Changed, Plan, Sample, SampledColumn};
 
 use super::hypotheses::{self, Hypothesis, QUARTERS, Reading, both, from_row};
-use super::policy::{FITTED, OBJECT_STEPS, PAIRED, PARTS, ROUGH_SHARE, SCREENED_STEPS};
+use super::policy::{
+    FITTED, MOST_TILT_RAD, OBJECT_STEPS, PAIRED, PARTS, ROUGH_SHARE, SCREENED_STEPS, TOOL_SHARE,
+};
 use super::prior::{Implausible, Priors, indexed};
 use super::score::{Score, jacobian, score, trimmed, written};
-use super::{explains, frame, size, states, strayed};
+use super::{estimated, explains, frame, size, states, strayed};
 
 /// Shares of the residual that differ by less are the same but for rounding.
 const ROUNDED: f64 = 1e-9;
@@ -99,9 +102,9 @@ impl<'a> Trial<'a> {
 
     /// The same from another reading's errors, and from homes elsewhere: a quarter or half turn away, or by what a frame is turned. A wrong
     /// minimum is no misread column.
-    pub fn as_read_elsewhere(&self, other: &Tried) -> Option<Score> {
+    pub fn as_read_elsewhere(&self, other: &Tried, as_read: &Score) -> Option<Score> {
         if self.own.unknowns.is_some() {
-            return None;
+            return self.with_large_errors(as_read.size);
         }
         let mut starts = vec![other.score.values.clone()];
         let quarters = QUARTERS.map(|quarters| FRAC_PI_2 * f64::from(quarters));
@@ -119,6 +122,18 @@ impl<'a> Trial<'a> {
         let steps = self.plan.fit.max_iterations;
         let scores = starts.iter().filter_map(|start| self.score(&self.own, start, steps, None));
         scores.max_by(|one, other| one.total.total_cmp(&other.total))
+    }
+
+    /// The score of the study's own reading with errors as large as they may be: held to small ones, a lever arm of a metre leaves a residual
+    /// in which nothing shows how large it is.
+    fn with_large_errors(&self, size_m: f64) -> Option<Score> {
+        let size = |id: SymbolId| match self.plan.chain.symbol(id).quantity {
+            Quantity::Length => TOOL_SHARE * size_m,
+            _ => MOST_TILT_RAD,
+        };
+        let sizes = estimated(self.plan).map(|id| (id, size(id))).collect();
+        let options = FitOptions { sizes, max_iterations: self.object_steps(), ..self.options.clone() };
+        self.score_by(&self.own, &options, None)
     }
 
     /// The other readings that come out best, fitted to the end, the best first.

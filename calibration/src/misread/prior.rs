@@ -9,6 +9,7 @@ use super::estimated;
 use super::policy::{
     BEYOND, LENGTH_SHARE, MOST_LENGTH_SHARE, MOST_RESIDUAL_SHARE, MOST_TILT_RAD, TILT_RAD, TOOL_SHARE,
 };
+use super::size::of_objects_m;
 use fit::FitResult;
 use observe::{Observations, SiUnit};
 use study::Plan;
@@ -99,7 +100,7 @@ pub enum Implausible {
     Residual {
         /// RMS of the residual, SI.
         rms: f64,
-        /// The size of what was measured, SI: a radian of directions, the usual distance from their middle of points.
+        /// The size of what was measured, SI: a radian of directions, the usual distance from their middle of points and of unknown objects.
         size: f64,
         /// Their unit.
         unit: SiUnit,
@@ -117,10 +118,9 @@ pub fn implausible(
     fit: &FitResult,
     limits: &[(SymbolId, f64)],
 ) -> Vec<Implausible> {
-    if observations.unknowns.is_some() {
-        return Vec::new();
-    }
-    let reach_m = reach_m(chain, observations);
+    // Where rows observe unknown objects, an instrument reaches as far as these are apart.
+    let room_m = observations.unknowns.as_ref().and_then(|_| of_objects_m(chain, observations, &fit.values));
+    let reach_m = room_m.unwrap_or(0.0).max(reach_m(chain, observations));
     let mut found = Vec::new();
     for &id in &fit.parameters {
         let symbol = chain.symbol(id);
@@ -139,7 +139,10 @@ pub fn implausible(
     }
     if let Some(series) = observations.poses.series.first() {
         let unit = series.measure.unit();
-        let size = measured_size(observations);
+        let size = match &observations.unknowns {
+            Some(_) if unit == SiUnit::METRE => room_m.unwrap_or(0.0),
+            _ => measured_size(observations),
+        };
         let rms = fit.rms;
         let of_one_unit = observations.poses.series.iter().all(|own| own.measure.unit() == unit);
         if of_one_unit && size > 0.0 && rms > MOST_RESIDUAL_SHARE * size {

@@ -126,7 +126,7 @@ fn two_sockets_under_one_label_are_told() {
     folder.write("panda.toml", study.replace("[\"placement\", \"socket\"]", "\"placement\""));
     let run = run_in(&folder.0, &["calibrate", "panda.toml", "--format", "json"], "");
     assert_eq!(run.code, 1, "{run}");
-    let report: Value = serde_json::from_str(&run.stdout).unwrap();
+    let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
     let own = cautions(&report, "rows at two places");
     assert_eq!(own.len(), 1, "{}", report["cautions"]);
     let apart_m = number(own[0], "/apart_m");

@@ -75,6 +75,7 @@ pub(super) fn score(
         Some(_) => Some(size::of_objects_m(&plan.chain, observations, &fit.values)?),
         None => None,
     };
+    let across_m = size::across_m(&plan.chain, observations, &fit.values);
     // What shows nothing of a row, as a camera that looks away, is no reading of it.
     if fit.set_aside.iter().any(|own| own.why == Why::NoValue) {
         return None;
@@ -100,7 +101,7 @@ pub(super) fn score(
         return None;
     }
     let numbers: usize = units.iter().map(|(_, own, _)| own.len()).sum();
-    let jacobian = jacobian(observations, columns, hypothesis, of_objects_m);
+    let jacobian = jacobian(observations, columns, hypothesis, across_m);
     let (mut log, mut scale) = (jacobian, -jacobian / numbers as f64);
     for (_, own, _) in &units {
         let width = width(own);
@@ -135,19 +136,19 @@ pub(super) fn written(plan: &Plan, hypothesis: Option<&Hypothesis>) -> Vec<Stati
 }
 
 /// The logarithm of how much the residual changes with the numbers as they are written. What observes unknown objects has no number of its
-/// own: its residual counts by how large things are.
+/// own: its residual counts by how wide things are.
 pub(super) fn jacobian(
     observations: &Observations,
     columns: &[SampledColumn],
     hypothesis: Option<&Hypothesis>,
-    of_objects_m: Option<f64>,
+    across_m: Option<f64>,
 ) -> f64 {
     let mut all = 0.0;
     for (number, series) in observations.poses.series.iter().enumerate() {
         let rows = series.rows.len() as f64;
         if series.measure.shape().is_some() {
             let is_length = series.measure.unit() == SiUnit::METRE;
-            let size_m = of_objects_m.filter(|_| is_length).unwrap_or(1.0);
+            let size_m = across_m.filter(|_| is_length).unwrap_or(1.0);
             all += rows * series.measure.components() as f64 * size_m.ln();
             continue;
         }

@@ -248,6 +248,26 @@ fn values_that_no_small_error_has_withhold_the_correction() {
     assert!(made.diagnosis.cautions.iter().any(is_told), "{:?}", made.diagnosis.cautions);
 }
 
+/// Walls seen by a scanner whose declaration turns its trunnion axis by eight degrees, which the scanner of these data does not.
+#[test]
+fn a_tilt_that_nobody_makes_is_withheld_beside_unknown_walls_too() {
+    let text = |name: &str| std::fs::read_to_string(format!("../examples/objects/{name}")).unwrap();
+    let chain = text("scanner.chain");
+    let turned =
+        chain.replacen("body mirror on alidade {", "body mirror on alidade {\n position: Ry(-8 deg);", 1);
+    let [study, data] = ["walls.toml", "walls.csv"].map(text);
+    let as_it_is = calibrated(&chain, &study, &data);
+    assert!(as_it_is.diagnosis.verdict.is_usable(), "{:?}", as_it_is.diagnosis.cautions);
+    let made = calibrated(&turned, &study, &data);
+    assert!(!made.diagnosis.verdict.is_usable() && made.amended.is_none());
+    let names = |caution: &Caution| match caution {
+        Caution::Implausible { values } => format!("{values:?}"),
+        _ => String::new(),
+    };
+    let told: String = made.diagnosis.cautions.iter().map(names).collect();
+    assert!(told.contains("trunnion"), "{:?}", made.diagnosis.cautions);
+}
+
 #[test]
 fn keys_that_say_how_a_column_is_written_are_checked() {
     for (column, complaint) in [

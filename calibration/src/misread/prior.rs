@@ -9,7 +9,7 @@ use super::estimated;
 use super::policy::{
     BEYOND, LENGTH_SHARE, MOST_LENGTH_SHARE, MOST_RESIDUAL_SHARE, MOST_TILT_RAD, TILT_RAD, TOOL_SHARE,
 };
-use super::size::of_objects_m;
+use super::size::of_objects;
 use fit::FitResult;
 use observe::{Observations, SiUnit};
 use study::Plan;
@@ -119,7 +119,7 @@ pub fn implausible(
     limits: &[(SymbolId, f64)],
 ) -> Vec<Implausible> {
     // Where rows observe unknown objects, an instrument reaches as far as these are apart.
-    let room_m = observations.unknowns.as_ref().and_then(|_| of_objects_m(chain, observations, &fit.values));
+    let room_m = of_objects(chain, observations, &fit.values).map(|own| own.usual_m);
     let reach_m = room_m.unwrap_or(0.0).max(reach_m(chain, observations));
     let mut found = Vec::new();
     for &id in &fit.parameters {

@@ -71,11 +71,10 @@ pub(super) fn score(
     hypothesis: Option<&Hypothesis>,
 ) -> Option<Score> {
     let fit = fit_by(model.clone(), &plan.chain, observations, options).ok()?;
-    let of_objects_m = match &observations.unknowns {
-        Some(_) => Some(size::of_objects_m(&plan.chain, observations, &fit.values)?),
+    let of_objects = match &observations.unknowns {
+        Some(_) => Some(size::of_objects(&plan.chain, observations, &fit.values)?),
         None => None,
     };
-    let across_m = size::across_m(&plan.chain, observations, &fit.values);
     // What shows nothing of a row, as a camera that looks away, is no reading of it.
     if fit.set_aside.iter().any(|own| own.why == Why::NoValue) {
         return None;
@@ -101,7 +100,7 @@ pub(super) fn score(
         return None;
     }
     let numbers: usize = units.iter().map(|(_, own, _)| own.len()).sum();
-    let jacobian = jacobian(observations, columns, hypothesis, across_m);
+    let jacobian = jacobian(observations, columns, hypothesis, of_objects.map(|own| own.across_m));
     let (mut log, mut scale) = (jacobian, -jacobian / numbers as f64);
     for (_, own, _) in &units {
         let width = width(own);
@@ -119,7 +118,7 @@ pub(super) fn score(
         total,
         scale: scale.exp(),
         rms: trimmed(&rows_of_first),
-        size: of_objects_m.unwrap_or_else(|| measured_size(observations)),
+        size: of_objects.map_or_else(|| measured_size(observations), |own| own.usual_m),
         penalty,
         is_beyond: strayed.is_some() || priors.is_beyond(&fit.values),
         rank: fit.rank,

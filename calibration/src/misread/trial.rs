@@ -364,7 +364,7 @@ fn at_start(
     let model = Model::without_columns(&plan.chain, &observations.poses);
     let raw = residuals(&model, observations, &values).ok()?;
     let norms: Vec<f64> = Layout::of(observations).norms(&raw).collect();
-    let left = trimmed(&norms) / size::of_objects_m(&plan.chain, observations, &values)?;
+    let left = trimmed(&norms) / size::of_objects(&plan.chain, observations, &values)?.usual_m;
     let is_strayed = strayed(&written(plan, hypothesis), unknowns, &values).is_some();
     left.is_finite().then_some((is_strayed, left))
 }

@@ -13,6 +13,7 @@ use super::SearchError;
 use super::columns::Columns;
 use super::context::Context;
 use super::fitted::Fitted;
+use super::library::{orthonormal, take_out};
 use effects::candidate::{Dependence, JointAxis};
 use effects::families::{SmoothPlace, smooth};
 use observe::waves::waves;
@@ -50,54 +51,47 @@ pub(crate) struct Peak {
 struct Scanned {
     residual: Vec<f64>,
     /// Orthonormal.
-    basis: Vec<Vec<f64>>,
+    basis: Mat<f64>,
 }
 
 impl Scanned {
-    fn project(&self, column: &mut [f64]) {
-        for own in &self.basis {
-            let share: f64 = own.iter().zip(&*column).map(|(a, b)| a * b).sum();
-            column.iter_mut().zip(own).for_each(|(c, k)| *c -= share * k);
-        }
-    }
-
     /// Takes columns into what is explained.
     fn explain(&mut self, columns: impl IntoIterator<Item = Vec<f64>>) {
-        for mut column in columns {
-            let whole = square(&column);
-            self.project(&mut column);
-            self.project(&mut column);
-            let left = square(&column);
-            if left > 1e-9 * whole {
-                let length = left.sqrt();
-                column.iter_mut().for_each(|value| *value /= length);
-                let share: f64 = column.iter().zip(&self.residual).map(|(a, b)| a * b).sum();
-                self.residual.iter_mut().zip(&column).for_each(|(r, u)| *r -= share * u);
-                self.basis.push(column);
-            }
-        }
+        let rows = self.residual.len();
+        let known: Vec<Vec<f64>> =
+            (0..self.basis.ncols()).map(|j| self.basis.col_as_slice(j).to_vec()).collect();
+        self.basis = orthonormal(known.into_iter().chain(columns), rows);
+        take_out(&self.basis, &mut self.residual);
     }
 
     /// Logarithm of how much better two columns make the residual, nats.
-    fn gain(&self, mut columns: [Vec<f64>; 2]) -> f64 {
-        let whole = columns.each_ref().map(|column| square(column));
-        columns.iter_mut().for_each(|column| self.project(column));
-        let [a, b] = &columns;
-        let product = |x: &[f64], y: &[f64]| -> f64 { x.iter().zip(y).map(|(x, y)| x * y).sum() };
-        let (aa, ab, bb) = (product(a, a), product(a, b), product(b, b));
+    fn gain(&self, [a, b]: &[Vec<f64>; 2]) -> f64 {
+        let whole = [square(a), square(b)];
+        let (mut aa, mut ab, mut bb) = (whole[0], product(a, b), whole[1]);
+        for j in 0..self.basis.ncols() {
+            let own = self.basis.col_as_slice(j);
+            let (of_a, of_b) = (product(own, a), product(own, b));
+            aa -= of_a * of_a;
+            ab -= of_a * of_b;
+            bb -= of_b * of_b;
+        }
         let determinant = aa * bb - ab * ab;
         if aa < LEFT * whole[0] || bb < LEFT * whole[1] || determinant < LEFT * aa * bb {
             return 0.0;
         }
         let (ra, rb) = (product(a, &self.residual), product(b, &self.residual));
         let explained = (bb * ra * ra - 2.0 * ab * ra * rb + aa * rb * rb) / determinant;
-        let freedom = self.residual.len() as f64 - self.basis.len() as f64;
+        let freedom = self.residual.len() as f64 - self.basis.ncols() as f64;
         -0.5 * freedom * (-(explained / square(&self.residual)).min(1.0 - f64::EPSILON)).ln_1p()
     }
 }
 
+fn product(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(one, other)| one * other).sum()
+}
+
 fn square(column: &[f64]) -> f64 {
-    column.iter().map(|value| value * value).sum()
+    product(column, column)
 }
 
 /// A joint's readings, and a place's column, at the values that are scanned.
@@ -131,7 +125,7 @@ pub(crate) fn peaks(whole: &Context<'_>, fitted: &Fitted) -> Result<Vec<Peak>, S
                 let peaks = parallel::each_of(starts, |start| {
                     let orders = start..site.orders.end.min(start + TOGETHER as u32);
                     let peak = |order| {
-                        let gain = scanned.gain(site.columns(order));
+                        let gain = scanned.gain(&site.columns(order));
                         Peak { at: site.at, order, net: gain - price - policy.of_order(order as usize) }
                     };
                     orders.map(peak).filter(|peak| peak.net > policy.wave_offered).collect::<Vec<_>>()
@@ -170,7 +164,7 @@ fn prepared(
         .collect();
     let whitened =
         |column: &[f64]| -> Vec<f64> { chosen.iter().map(|&(at, weight)| weight * column[at]).collect() };
-    let mut scanned = Scanned { residual: whitened(&columns.residual), basis: Vec::new() };
+    let mut scanned = Scanned { residual: whitened(&columns.residual), basis: Mat::new() };
     let declared: &Mat<f64> = &columns.declared;
     scanned.explain((0..declared.ncols()).map(|j| whitened(declared.col_as_slice(j))));
 

@@ -15,7 +15,8 @@ use faer::Mat;
 use model_core::{Chain, SymbolId, SymbolKind};
 
 use self::grid::Driver;
-use self::refine::{Gain, orthonormal, refined};
+use self::refine::{Gain, refined};
+pub(crate) use self::refine::{orthonormal, take_out};
 pub(crate) use self::shape::{Shape, ShapeKind};
 use super::competing::AS_GOOD;
 use super::contest::{Contender, Price, contender, criterion, likelihood, predicts};
@@ -248,10 +249,7 @@ impl Library<'_, '_> {
         let basis = orthonormal(beside.map(|column| self.left.known.col_as_slice(column).to_vec()), rows);
         let last = self.left.known.ncols() - 1;
         let mut residual = self.left.known.col_as_slice(last).to_vec();
-        for own in basis.col_iter() {
-            let share: f64 = own.iter().zip(&residual).map(|(a, b)| a * b).sum();
-            residual.iter_mut().zip(own.iter()).for_each(|(r, u)| *r -= share * u);
-        }
+        take_out(&basis, &mut residual);
         let gain = Gain { basis: &basis, residual: &residual };
 
         let mut starts: Vec<(f64, Shape)> = driver

@@ -72,7 +72,7 @@ pub(super) fn refined(
 }
 
 /// Orthonormal columns that span those given, in their order; those that the ones before leave nothing of are left out.
-pub(super) fn orthonormal(columns: impl Iterator<Item = Vec<f64>>, rows: usize) -> Mat<f64> {
+pub(crate) fn orthonormal(columns: impl Iterator<Item = Vec<f64>>, rows: usize) -> Mat<f64> {
     let mut found: Vec<Vec<f64>> = Vec::new();
     for mut column in columns {
         let whole: f64 = column.iter().map(|v| v * v).sum();
@@ -90,6 +90,14 @@ pub(super) fn orthonormal(columns: impl Iterator<Item = Vec<f64>>, rows: usize) 
         }
     }
     Mat::from_fn(rows, found.len(), |i, j| found[j][i])
+}
+
+/// What orthonormal columns leave of a residual.
+pub(crate) fn take_out(basis: &Mat<f64>, residual: &mut [f64]) {
+    for own in basis.col_iter() {
+        let share: f64 = own.iter().zip(&*residual).map(|(a, b)| a * b).sum();
+        residual.iter_mut().zip(own.iter()).for_each(|(r, u)| *r -= share * u);
+    }
 }
 
 #[cfg(test)]

@@ -4,13 +4,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use tables::formats::{Options, TableReader};
-use tables::trajectory::{Join, Joined as JoinedTable, Offset, Trajectory, offset_of, time_column};
+use tables::trajectory::{GAP_S, Join, Joined as JoinedTable, Offset, Trajectory, offset_of, time_column};
 
 use crate::failure::Failure;
 use crate::table_files::{failure, open_table};
-
-/// Records that are so far apart are told when rows are joined with them, s.
-const GAP_S: f64 = 0.1;
 
 /// A trajectory, and how it joins the rows of a table.
 pub struct Joined {

@@ -13,12 +13,11 @@ use service::errors_file::{self, FoundOver};
 use service::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use service::readings::{ReadingsTable, Rows};
 use service::source::observables;
-use study::TrajectoryPlan;
+use study::{Joining, TrajectoryPlan};
 use tables::formats::{Column, Options};
 
 use crate::failure::Failure;
 use crate::source::{self, Declared};
-use crate::table_files::Joining;
 use crate::{output, table_files, terminal};
 
 /// What is evaluated over which table, and where to.
@@ -111,7 +110,7 @@ impl OverTable {
     /// The trajectory that joins the rows, if one does.
     fn joining(&self, plan: Option<&TrajectoryPlan>, options: &Options) -> Result<Option<Joining>, Failure> {
         match (plan, &self.trajectory) {
-            (Some(plan), own) => Joining::read(plan, own.as_deref(), &self.data, options).map(Some),
+            (Some(plan), own) => table_files::joining(plan, own.as_deref(), &self.data, options).map(Some),
             (None, None) => Ok(None),
             (None, Some(_)) => Err(Failure::Input(format!(
                 "`{}` has no study with a [trajectory]: leave --trajectory out",

@@ -66,7 +66,7 @@ pub use orientation::{Form as OrientationForm, axes_in_turn};
 pub use plan::{Plan, Search, SourcePlan};
 pub use sample::{Change, Changed, Place, Read, Sample, SampledColumn, WrittenColumn};
 pub use timeless::Timeless;
-pub use trajectory::TrajectoryPlan;
+pub use trajectory::{Joining, TrajectoryPlan};
 pub use undeclared::{Beside, Undeclared};
 pub use unsought::Unsought;
 pub use unstated::Unstated;

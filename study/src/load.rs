@@ -12,7 +12,7 @@ use super::repeated::{fitted_as_well, without_repeats};
 use super::rows::Rows;
 use super::sample::Sample;
 use super::stated::{of_components, of_pairs, of_readings};
-use super::trajectory::Joining;
+use super::trajectory::{Joining, TrajectoryPlan};
 use network::{Remark, StartError, check_named, check_scale, place};
 use observe::orientation::Turned;
 use observe::{Measured, Observations, Series};
@@ -83,8 +83,11 @@ impl Plan {
     /// What is wrong with a table, with its place.
     pub fn load_tables(&self, open: &mut OpenTable<'_>) -> Result<Loaded, DataError> {
         let (mut doubtful, mut sample) = (Doubtful::default(), Sample::default());
-        let joining = Joining::of(self.trajectory.as_ref(), |path| open(path, &self.format), &self.format)?;
-        let open: &mut OpenTable<'_> = &mut |path, options| joining.table(open(path, options)?);
+        let mut read =
+            |plan: &TrajectoryPlan| Joining::read(plan, &mut *open(&plan.path, &self.format)?, &self.format);
+        let joining = self.trajectory.as_ref().map(&mut read).transpose()?;
+        let open: &mut OpenTable<'_> =
+            &mut |path, options| Joining::table(joining.as_ref(), open(path, options)?);
         let mut observations = self.no_observations();
         let mut groups = Numbered::default();
         for source in &self.sources {

@@ -10,11 +10,8 @@ use super::mistakes::{Gathered, Outcome, mistake};
 use super::written::{Origin, Study};
 use model_core::Quantity;
 use tables::formats::{DataError, Options, TableReader};
-use tables::trajectory::{Geodetic, Join, Joined, Trajectory};
+use tables::trajectory::{GAP_S, Geodetic, Join, Joined, Trajectory};
 use tables::units;
-
-/// Records that are farther apart say nothing of what lies between, unless a study says more, s.
-const GAP_S: f64 = 0.1;
 
 /// Which trajectory joins the rows of a study, and how.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,53 +61,39 @@ fn origin(written: &Origin) -> Outcome<Geodetic> {
     })
 }
 
-impl TrajectoryPlan {
-    /// Reads it from an open table.
+/// A trajectory that is read once, for every table that it joins.
+#[derive(Clone)]
+pub struct Joining {
+    trajectory: Arc<Trajectory>,
+    join: Join,
+}
+
+impl Joining {
+    /// Reads the trajectory of a plan from an open table.
     ///
     /// # Errors
     /// What is wrong with it, with its place.
     pub fn read(
-        &self,
+        plan: &TrajectoryPlan,
         reader: &mut dyn TableReader,
         options: &Options,
-    ) -> Result<Arc<Trajectory>, DataError> {
-        Trajectory::read(reader, self.origin, options).map(Arc::new)
+    ) -> Result<Self, DataError> {
+        let trajectory = Arc::new(Trajectory::read(reader, plan.origin, options)?);
+        Ok(Self { trajectory, join: plan.join.clone() })
     }
 
-    /// Joins a table of points with it.
+    /// A table of points with what joins it, if something does.
     ///
     /// # Errors
     /// The points have no column of times, or columns that a trajectory brings.
-    pub fn joined<'t>(
-        &self,
-        points: Box<dyn TableReader + 't>,
-        trajectory: &Arc<Trajectory>,
-    ) -> Result<Box<dyn TableReader + 't>, DataError> {
-        Ok(Box::new(Joined::new(points, Arc::clone(trajectory), self.join.clone())?))
-    }
-}
-
-/// A trajectory that is read once, for every table that it joins.
-pub(super) struct Joining<'p>(Option<(&'p TrajectoryPlan, Arc<Trajectory>)>);
-
-impl<'p> Joining<'p> {
-    /// What a plan says, if it says something; `open` opens a table by its path.
-    pub fn of<'t>(
-        plan: Option<&'p TrajectoryPlan>,
-        open: impl FnOnce(&str) -> Result<Box<dyn TableReader + 't>, DataError>,
-        options: &Options,
-    ) -> Result<Self, DataError> {
-        let Some(plan) = plan else { return Ok(Self(None)) };
-        Ok(Self(Some((plan, plan.read(&mut *open(&plan.path)?, options)?))))
-    }
-
-    /// A table with what joins it.
     pub fn table<'t>(
-        &self,
+        joining: Option<&Self>,
         points: Box<dyn TableReader + 't>,
     ) -> Result<Box<dyn TableReader + 't>, DataError> {
-        match &self.0 {
-            Some((plan, trajectory)) => plan.joined(points, trajectory),
+        match joining {
+            Some(Self { trajectory, join }) => {
+                Ok(Box::new(Joined::new(points, Arc::clone(trajectory), join.clone())?))
+            }
             None => Ok(points),
         }
     }

@@ -15,7 +15,7 @@ use tables::formats::{self, DataError, Input, Options, TableReader};
 use crate::failure::Failure;
 use crate::source;
 pub use files::Files;
-pub use joining::{Joining, beside};
+pub use joining::{beside, joining};
 pub use readings::open_kept;
 #[cfg(feature = "point-clouds")]
 pub use readings::open_readings;

@@ -7,9 +7,10 @@ use model_core::Chain;
 use service::readings::ReadingsTable;
 #[cfg(feature = "parquet")]
 use service::{Refusal, readings::Again};
+use study::Joining;
 use tables::formats::{self, Options};
 
-use super::{Joining, failure, known_format};
+use super::{failure, known_format};
 use crate::failure::Failure;
 use crate::source;
 

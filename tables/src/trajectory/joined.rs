@@ -14,6 +14,9 @@ pub const COLUMNS: [&str; 6] =
 /// Rows that are counted at a time where one has no pose.
 const COUNTED: usize = 1 << 16;
 
+/// Records that are farther apart say nothing of what lies between, unless a study says more, s.
+pub const GAP_S: f64 = 0.1;
+
 /// How rows and poses belong together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Join {
@@ -87,12 +90,15 @@ impl<'t> Joined<'t> {
         self.header.len() - COLUMNS.len()
     }
 
-    /// The pose of each row of a chunk.
-    fn poses(&mut self, times: &[f64], chunk: &Chunk) -> Result<Vec<Pose>, DataError> {
+    /// The pose of each row of a chunk, as the columns have it.
+    fn poses(&mut self, times: &[f64], chunk: &Chunk) -> Result<Vec<[f64; 6]>, DataError> {
         let mut poses = Vec::with_capacity(times.len());
         for (at, time) in times.iter().enumerate() {
             match self.pose(*time) {
-                Ok(pose) => poses.push(pose),
+                Ok(pose) => {
+                    let ([east, north, up], [heading, pitch, roll]) = (pose.place_m.into(), pose.angles());
+                    poses.push([east, north, up, heading, pitch, roll]);
+                }
                 Err(why) => return Err(self.without_pose(times, (chunk, at), why)),
             }
             self.seen.take(*time, true);
@@ -204,12 +210,7 @@ impl TableReader for Joined<'_> {
             unreachable!("the times were wanted as numbers, behind all others")
         };
         let poses = self.poses(&times, &chunk)?;
-        let brought = |column: usize| -> Box<dyn Iterator<Item = f64> + '_> {
-            match column {
-                0..3 => Box::new(poses.iter().map(move |pose| pose.place_m[column])),
-                _ => Box::new(poses.iter().map(move |pose| pose.angles()[column - 3])),
-            }
-        };
+        let brought = |column: usize| poses.iter().map(move |pose| pose[column]);
         let mut read = std::mem::take(&mut chunk.columns).into_iter();
         let columns = wanted.iter().map(|want| match want.column.checked_sub(own) {
             Some(column) => of_numbers(brought(column), want.form),

@@ -18,7 +18,7 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use crate::formats::sbet::Record;
 use crate::formats::{Cells, DataError, Form, Options, ReadAs, TableReader, Wanted, find_column};
 pub use earth::Geodetic;
-pub use joined::{COLUMNS, Join, Joined};
+pub use joined::{COLUMNS, GAP_S, Join, Joined};
 pub use overlap::{Offset, offset_of, time_column};
 
 /// Records that are read at a time.

@@ -19,12 +19,11 @@ const ARCSEC: f64 = PI / 180.0 / 3600.0;
 /// A length for each radian on the Earth, m.
 const RADIUS_M: f64 = 6.4e6;
 
-/// Whether a file is a trajectory to correct.
-///
-/// # Errors
-/// It cannot be read.
+/// Whether a file is a trajectory to correct. What gives its bytes once, a pipe, is left to who reads it as a table.
 pub fn is_one_of(path: &Path) -> bool {
-    path != Path::new("-") && open_table(path, &Options::default()).is_ok_and(|reader| is_one(&*reader))
+    path != Path::new("-")
+        && path.is_file()
+        && open_table(path, &Options::default()).is_ok_and(|reader| is_one(&*reader))
 }
 
 /// Corrects a trajectory; what was done, and how far what was written is from it, in words.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::support::Folder;
+use crate::support::{Folder, run_in};
 use crate::{calibrated, packed};
 
 /// The cells of a column.
@@ -164,4 +164,19 @@ fn azimuths_go_round_as_the_data_have_them() {
     let text = apply(&folder, "new.csv", &[]);
     let found = numbers(&text, "b [gon]")[0];
     assert!((found - 300.01).abs() < 1e-4, "{found}");
+}
+
+/// A pipe gives its bytes once: nothing else looks at them first.
+#[cfg(unix)]
+#[test]
+fn rows_out_of_a_pipe_are_corrected_as_those_of_a_file() {
+    let folder = calibrated("instrument-pipe");
+    let apply = |data: &str, rows: &str| {
+        let arguments = ["apply", "result/instrument.toml", "--data", data, "--out", "-"];
+        let run = run_in(&folder.0, &arguments, rows);
+        assert_eq!(run.code, 0, "{run}");
+        run.stdout
+    };
+    let rows = folder.read("stars.csv");
+    assert_eq!(apply("/dev/stdin", &rows), apply("stars.csv", ""));
 }
